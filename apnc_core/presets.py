@@ -1,0 +1,27 @@
+"""Named sets of parameters."""
+
+from __future__ import annotations
+
+from apnc_core.interface import Parameters
+from apnc_core.schema import Causality
+from apnc_core.variables import rows
+
+PRESETS = ("lilibot", "paper")
+
+
+def preset(name: str) -> Parameters:
+    """The parameters of one preset.
+
+    Args:
+        name: ``lilibot``, the default: the set with which Lilibot forms its gait in the
+            multibody model; ``paper``: the constants and rules as printed.
+
+    Raises:
+        ValueError: no such preset.
+    """
+    if name not in PRESETS:
+        raise ValueError(f"preset '{name}' is not one of {', '.join(PRESETS)}")
+    if name == "lilibot":
+        return Parameters()
+    printed = {v.name: v.paper for v in rows(Causality.parameter) if v.paper is not None}
+    return Parameters(**printed)  # type: ignore[arg-type]  # the table is typed per row

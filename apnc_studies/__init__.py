@@ -1,0 +1,1 @@
+"""Metrics, studies, reports and the command line."""

@@ -1,0 +1,63 @@
+"""The C sources as they are compiled and shipped: one flat folder and its configuration."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.resources
+import itertools
+from importlib.resources.abc import Traversable
+from typing import Final
+
+from build_fmu.options import BuildOptions
+
+_FMI_HEADERS: Final = ("fmi2Functions.h", "fmi2FunctionTypes.h", "fmi2TypesPlatform.h")
+
+
+def collect() -> dict[str, bytes]:
+    """C files and headers by name, without the configuration header.
+
+    The headers of the standard come from the ``fmpy`` package.
+    """
+    root = importlib.resources.files("fmu_src")
+    files = {
+        entry.name: entry.read_bytes()
+        for folder in ("core", "fmi")
+        for entry in root.joinpath(folder).iterdir()
+        if _is_source(entry)
+    }
+    headers = importlib.resources.files("fmpy").joinpath("c-code")
+    files |= {name: headers.joinpath(name).read_bytes() for name in _FMI_HEADERS}
+    return dict(sorted(files.items()))
+
+
+def _is_source(entry: Traversable) -> bool:
+    return entry.name.endswith((".c", ".h")) and entry.name != "apnc_config.h"
+
+
+def c_files(files: dict[str, bytes]) -> list[str]:
+    """Names of the files to compile."""
+    return [name for name in files if name.endswith(".c")]
+
+
+def config_header(options: BuildOptions, guid: str) -> bytes:
+    """``apnc_config.h``: the build-time choices."""
+    lines = [
+        "/* Build-time choices, written by the build. */",
+        "#ifndef APNC_CONFIG_H",
+        "#define APNC_CONFIG_H",
+        "",
+        f"#define APNC_LEGS {options.legs}",
+        *(["#define APNC_NAMING_FLAT"] if options.naming == "flat" else []),
+        f'#define APNC_GUID "{guid}"',
+        "",
+        "#endif",
+        "",
+    ]
+    return "\n".join(lines).encode()
+
+
+def guid_of(*parts: bytes) -> str:
+    """A guid that changes with any of ``parts``, in the form of the standard's examples."""
+    digest = hashlib.sha256(b"\0".join(parts)).hexdigest()
+    cuts = (0, 8, 12, 16, 20, 32)
+    return "{" + "-".join(digest[a:b] for a, b in itertools.pairwise(cuts)) + "}"

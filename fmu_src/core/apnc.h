@@ -1,0 +1,73 @@
+/* Adaptive neural controller of a legged robot (Sun, Dai & Manoonpong 2023), pure core.
+ *
+ * No allocation, no globals, no FMI types: call apnc_init once, then apnc_tick every Ts seconds.
+ * Legs are ordered right side first (quadruped: RF, RH, LF, LH).
+ */
+#ifndef APNC_H
+#define APNC_H
+
+#include "apnc_variables.h"
+
+/* Oscillators, learners and forward models of all legs. */
+typedef struct {
+    double o1[APNC_LEGS];               /* [1] neuron outputs at n, Eq. 2 */
+    double o2[APNC_LEGS];               /* [1] */
+    double K_f[APNC_LEGS];              /* [1] fast learner, Eq. 7 */
+    double K_s[APNC_LEGS];              /* [1] slow learner, Eq. 8 */
+    double grf_expected[APNC_LEGS];     /* [1] expected load over half the weight, Eq. 10 */
+    double theta_hip_before[APNC_LEGS]; /* [rad] hip command at n - 1 */
+    double F_before[APNC_LEGS];         /* [1] load over half the weight at n - 1 */
+} apnc_circuits;
+
+/* Acquisition of the phase relations, Eq. 12. */
+typedef struct {
+    double re[APNC_RELATIONS]; /* [1] low-passed product of the vectors (o1, o2) of legs 1 and k */
+    double im[APNC_RELATIONS]; /* [1] */
+    double o1_before[APNC_LEGS];  /* [1] o1 at n - 1 */
+    double o1_before2[APNC_LEGS]; /* [1] o1 at n - 2 */
+    double t_peak[APNC_LEGS];     /* [ticks] last peak of o1, negative: none yet */
+    double period;                /* [ticks] between the last two peaks of leg 1, 0: unknown */
+    double now;                   /* [ticks] since the circuits started */
+} apnc_acquisition;
+
+/* Estimation of the phase relations, Eq. 13-16. */
+typedef struct {
+    double unwrapped[APNC_RELATIONS];               /* [rad] relative phases at n */
+    double window[APNC_WINDOW_MAX][APNC_RELATIONS]; /* [rad] relative phases at n - 1 ... n - N */
+    double sum[APNC_RELATIONS];                     /* [rad] over the window */
+    int32_t oldest;                                 /* row of the window to be replaced next */
+    int32_t armed;                                  /* d has exceeded sigma */
+    int32_t calm;                                   /* [ticks] with d at or below sigma since */
+} apnc_estimation;
+
+/* What the neural couplings hold. */
+typedef struct {
+    double phi[APNC_RELATIONS]; /* [rad] stored relations phi_1k */
+    int32_t on;                 /* there are stored relations and kappa is 1 */
+    int32_t unused;
+} apnc_memory;
+
+typedef struct {
+    apnc_circuits circuits;
+    apnc_acquisition acquisition;
+    apnc_estimation estimation;
+    apnc_memory memory;
+    double MI;     /* [1] last usable value of the input */
+    double turn;   /* [1] last usable value of the input */
+    int64_t ticks; /* run since the start */
+} apnc_state;
+
+/* Parameters and inputs at their start values. */
+void apnc_defaults(apnc_data *data);
+
+/* Fresh controller: circuits at their start state, memory as the parameters say; fills out. */
+void apnc_init(const apnc_parameters *p, apnc_state *state, apnc_outputs *out);
+
+/* Circuits back to their start state; the memory stays. */
+void apnc_reset(const apnc_parameters *p, apnc_state *state);
+
+/* Tick n: outputs at n from the state and the inputs at n, then the state at n + 1. */
+void apnc_tick(const apnc_parameters *p, apnc_state *state, const apnc_inputs *in,
+               apnc_outputs *out);
+
+#endif

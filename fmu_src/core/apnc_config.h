@@ -1,0 +1,9 @@
+/* Build-time choices. The build writes its own version of this file beside the sources. */
+#ifndef APNC_CONFIG_H
+#define APNC_CONFIG_H
+
+#ifndef APNC_LEGS
+#define APNC_LEGS 4 /* number of legs, the right ones first */
+#endif
+
+#endif

@@ -1,0 +1,27 @@
+/* Neural coupling: the stored phase relations act on the oscillators (Eq. 17).
+ *
+ * phi_lk = phi_1k - phi_1l, so with x^l = o^l + phi_1l the sum over the legs factors:
+ *   sum_k sin(o^l - o^k - phi_lk) = sin(x^l) sum_k cos(x^k) - cos(x^l) sum_k sin(x^k).
+ * It takes one sine and one cosine per leg and neuron, not per pair of legs.
+ */
+#ifndef APNC_NEURAL_COUPLING_H
+#define APNC_NEURAL_COUPLING_H
+
+#include <math.h>
+
+/* g of one neuron of every leg times gain, from the sines and cosines of its outputs o. */
+static inline void apnc_couple(double gain, const double *sin_o, const double *cos_o,
+                               const double *sin_phi, const double *cos_phi, double *g) {
+    double sin_x[APNC_LEGS], cos_x[APNC_LEGS];
+    double sum_sin = 0.0, sum_cos = 0.0;
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        sin_x[leg] = sin_o[leg] * cos_phi[leg] + cos_o[leg] * sin_phi[leg];
+        cos_x[leg] = cos_o[leg] * cos_phi[leg] - sin_o[leg] * sin_phi[leg];
+        sum_sin += sin_x[leg];
+        sum_cos += cos_x[leg];
+    }
+    for (int leg = 0; leg < APNC_LEGS; leg++)
+        g[leg] = gain * (sin_x[leg] * sum_cos - cos_x[leg] * sum_sin);
+}
+
+#endif

@@ -1,0 +1,52 @@
+/* Acquisition of the phase relations phi_12, phi_13, ... (Eq. 12).
+ *
+ * phi_lk is positive when leg k leads leg l.
+ */
+#ifndef APNC_PHASE_ACQUISITION_H
+#define APNC_PHASE_ACQUISITION_H
+
+#include <math.h>
+#include <string.h>
+
+#include "angle.h"
+
+static inline void apnc_acquisition_start(apnc_acquisition *s) {
+    memset(s, 0, sizeof *s);
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        s->o1_before[leg] = s->o1_before2[leg] = HUGE_VAL;
+        s->t_peak[leg] = -1.0;
+    }
+}
+
+/* Low-passed angle between the vectors (o1, o2) of leg 1 and of leg k. */
+static inline void apnc_acquire_vector(apnc_acquisition *s, double phase_filter, const double *o1,
+                                       const double *o2, double *angle) {
+    for (int r = 0; r < APNC_RELATIONS; r++) {
+        const double re = o1[0] * o1[r + 1] + o2[0] * o2[r + 1];
+        const double im = o2[0] * o1[r + 1] - o1[0] * o2[r + 1];
+        s->re[r] += phase_filter * (re - s->re[r]);
+        s->im[r] += phase_filter * (im - s->im[r]);
+        angle[r] = atan2(s->im[r], s->re[r]);
+    }
+}
+
+/* Times between the peaks of o1 over the period of leg 1 (Eq. 12). */
+static inline void apnc_acquire_peak(apnc_acquisition *s, const double *o1, double *angle) {
+    const double t = s->now - 1.0;
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        if (s->o1_before2[leg] < s->o1_before[leg] && s->o1_before[leg] >= o1[leg]) {
+            if (leg == 0 && s->t_peak[0] >= 0.0) s->period = t - s->t_peak[0];
+            s->t_peak[leg] = t;
+        }
+        s->o1_before2[leg] = s->o1_before[leg];
+        s->o1_before[leg] = o1[leg];
+    }
+    s->now += 1.0;
+    for (int r = 0; r < APNC_RELATIONS; r++) {
+        const int known = s->period > 0.0 && s->t_peak[r + 1] >= 0.0;
+        const double lag = known ? (s->t_peak[0] - s->t_peak[r + 1]) / s->period : 0.0;
+        angle[r] = apnc_wrap(2.0 * APNC_PI * lag, -APNC_PI);
+    }
+}
+
+#endif

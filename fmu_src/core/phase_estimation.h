@@ -1,0 +1,43 @@
+/* Estimation of the phase relations: are they settled? (Eq. 13-16). */
+#ifndef APNC_PHASE_ESTIMATION_H
+#define APNC_PHASE_ESTIMATION_H
+
+#include <math.h>
+#include <string.h>
+
+#include "angle.h"
+
+static inline void apnc_estimation_start(apnc_estimation *s) { memset(s, 0, sizeof *s); }
+
+/* d(n) = |Phi(n) - mean(Phi(n-1) ... Phi(n-N))| (Eq. 13-15). */
+static inline double apnc_distance(apnc_estimation *s, int N, const double *angle) {
+    double squares = 0.0;
+    double *row = s->window[s->oldest];
+    for (int r = 0; r < APNC_RELATIONS; r++) {
+        s->unwrapped[r] += apnc_wrap(angle[r] - s->unwrapped[r], -APNC_PI);
+        const double deviation = s->unwrapped[r] - s->sum[r] / N;
+        squares += deviation * deviation;
+        s->sum[r] += s->unwrapped[r] - row[r];
+        row[r] = s->unwrapped[r];
+    }
+    s->oldest = s->oldest + 1 < N ? s->oldest + 1 : 0;
+    if (s->oldest == 0) { /* summed anew once per round, so that rounding does not pile up */
+        for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] = 0.0;
+        for (int i = 0; i < N; i++)
+            for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] += s->window[i][r];
+    }
+    return sqrt(squares);
+}
+
+/* Whether kappa may switch on at this tick (Eq. 16, or armed first and held). */
+static inline int apnc_settled(apnc_estimation *s, const apnc_parameters *p, double d) {
+    const int below = d <= p->sigma;
+    s->armed = s->armed || !below;
+    if (!(s->armed && below))
+        s->calm = 0;
+    else if (s->calm < INT32_MAX)
+        s->calm++;
+    return p->kappa_rule == APNC_KAPPA_RULE_PRINTED ? below : s->calm >= p->kappa_hold;
+}
+
+#endif

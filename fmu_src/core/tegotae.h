@@ -1,0 +1,7 @@
+/* Tegotae baseline: the feedback of Eq. 5 with a gain that does not learn. */
+#ifndef APNC_TEGOTAE_H
+#define APNC_TEGOTAE_H
+
+static inline double apnc_tegotae_gain(const apnc_parameters *p) { return p->gamma_tegotae; }
+
+#endif
