@@ -36,11 +36,12 @@ class Block:
     names: tuple[tuple[Variable, int, int], ...]
     references: Any
     buffer: Any
-    view: np.ndarray
+    view: np.ndarray[Any, np.dtype[Any]]
 
 
 def _block(members: Sequence[Scalar], real: bool) -> Block:
     names: list[tuple[Variable, int, int]] = []
+    buffer: Any
     for at, member in enumerate(members):
         if not names or names[-1][0] is not member.variable:
             names.append((member.variable, at, 0))
@@ -74,7 +75,6 @@ class FmuController:
         path: the FMU file.
         parameters: values by row name of the table; sequences for rows with several entries.
         start_time: time of the first tick [s].
-        inputs: start values of the inputs ``MI``, ``turn`` and ``reset``.
 
     Raises:
         FmuError: no FMU, not this controller, no binary for this machine, or a parameter that is
@@ -89,7 +89,7 @@ class FmuController:
     ) -> None:
         self.messages: list[str] = []
         self.wall_s = 0.0
-        description = _read(path)
+        description = check_fmu(path)
         self.n_legs, self.naming = _names_in(description)
         self._folder = tempfile.mkdtemp(prefix="apnc-")
         try:
@@ -168,6 +168,7 @@ class FmuController:
         self._integers = _block([m for m in shown if m.variable.type is Type.integer], False)
         self._booleans = _block([m for m in shown if m.variable.type is Type.boolean], False)
         places = {v.name: (first, count) for v, first, count in self._reals.names}
+        self.phi = self._reals.view[slice(*_span(places["phi"]))]
         self.theta_hip = self._reals.view[slice(*_span(places["theta_hip"]))]
         self.theta_knee = self._reals.view[slice(*_span(places["theta_knee"]))]
 
@@ -252,12 +253,17 @@ def _span(place: tuple[int, int]) -> tuple[int, int]:
     return first, first + count
 
 
-def _entry(v: Variable, view: np.ndarray, first: int, count: int) -> Array:
+def _entry(v: Variable, view: np.ndarray[Any, np.dtype[Any]], first: int, count: int) -> Array:
     values: Array = view[first : first + count].astype(np.float64)
     return values.reshape(()) if v.shape is Shape.scalar else values
 
 
-def _read(path: Path | str) -> Any:
+def check_fmu(path: Path | str) -> Any:
+    """Model description of an FMI 2.0 co-simulation FMU.
+
+    Raises:
+        FmuError: there is no such file, or it is no such FMU.
+    """
     if not Path(path).is_file():
         raise FmuError(f"{path}: no such file")
     if not zipfile.is_zipfile(path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -69,7 +70,8 @@ class Record:
             ``gamma``, ``grf_expected``, ``f1``, ``f2``, ``g1``, ``g2``, ``fault``, ``phi``,
             ``phi_memory``, ``d``, ``kappa``) and the scalar inputs ``MI``, ``turn``, ``reset``.
         mass: total mass of the robot [kg].
-        complete: False if the run was interrupted before its planned end.
+        complete: False if the run ended before its planned end.
+        error: why it ended early, if it was not asked to.
         fmu_wall_s: wall time spent inside the controller [s].
         wall_s: wall time of the whole loop [s].
     """
@@ -80,6 +82,7 @@ class Record:
     controller: Mapping[str, Array]
     mass: float
     complete: bool = True
+    error: str = ""
     fmu_wall_s: float = 0.0
     wall_s: float = 0.0
 
@@ -90,3 +93,43 @@ class Record:
 
     def __len__(self) -> int:
         return len(self.time)
+
+
+def columns(record: Record) -> dict[str, Array]:
+    """All channels as flat columns of shape (T,): ``time``, ``RF.o1``, ``phi12``, ``position.x``.
+
+    Vectors are named by component, per-leg channels by leg, relations by the pair of legs.
+    """
+    table: dict[str, Array] = {"time": record.time}
+    for name, values in record.controller.items():
+        entries = values.reshape(len(record), -1)
+        if values.ndim == 1:
+            names = [name]
+        elif values.shape[1] == record.n_legs:
+            names = [f"{leg}.{name}" for leg in record.legs]
+        else:
+            names = [f"{name}1{k}" for k in range(2, record.n_legs + 1)]
+        table |= dict(zip(names, entries.T, strict=True))
+    for channel in PLANT_CHANNELS:
+        entries = record.plant[channel.name].reshape(len(record), -1)
+        names = channel.columns(record.legs)
+        table |= dict(zip(names, entries.T, strict=True))
+    return table
+
+
+def write_csv(record: Record, path: Path) -> None:
+    """Write every channel as one CSV file, a row per sample, SI units throughout.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    table = columns(record)
+    np.savetxt(
+        path,
+        np.column_stack(list(table.values())),
+        fmt="%.9g",
+        delimiter=",",
+        header=",".join(table),
+        comments="",
+        encoding="utf-8",
+    )
