@@ -68,6 +68,8 @@ def walking_bar(duration: float) -> Iterator[Any]:
 
     def update(t: float, controller: Any) -> None:
         nonlocal shown
+        if not bar.live.is_started:  # not before the first tick: until then mistakes may show
+            bar.start()
         now = time.perf_counter()
         if now - shown < 0.1 and t < duration - 1e-6:
             return
@@ -76,8 +78,10 @@ def walking_bar(duration: float) -> Iterator[Any]:
         state = f"{t:5.1f} s  {t / (now - begin):4.1f}x real time  phi {phases} rad"
         bar.update(task, completed=t, state=state)
 
-    with bar:
+    try:
         yield update
+    finally:
+        bar.stop()
 
 
 def show_summary(summary: Summary, folder: str) -> None:

@@ -10,7 +10,7 @@ from apnc_core.enumerations import CouplingSign, KappaRule, Method, PhaseMeasure
 from build_fmu import sources
 from build_fmu.build import fmu_bytes
 from build_fmu.options import BuildOptions, host_platform
-from tests.parity import compare
+from parity import compare
 
 TOLERANCE = 1e-9
 
