@@ -81,7 +81,8 @@ def walking_bar(duration: float) -> Iterator[Any]:
     try:
         yield update
     finally:
-        bar.stop()
+        if bar.live.is_started:
+            bar.stop()
 
 
 def show_summary(summary: Summary, folder: str) -> None:

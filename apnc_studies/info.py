@@ -37,7 +37,7 @@ def show_info(path: Path) -> None:
     out.print(facts, highlight=False)
     table = Table(box=None, padding=(0, 2))
     for heading in ("name", "causality", "start", "unit", "description"):
-        table.add_column(heading)
+        table.add_column(heading, no_wrap=heading == "name")
     for v in description.modelVariables:
         if v.causality in ("input", "output", "parameter"):
             table.add_row(v.name, v.causality, v.start or "", v.unit or "", v.description or "")

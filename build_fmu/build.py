@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import importlib.metadata
+import importlib.resources
 import os
 import tempfile
 from collections.abc import Callable
@@ -13,7 +14,7 @@ import platformdirs
 
 import apnc_core
 from build_fmu import sources
-from build_fmu.compile import FLAGS, compile_library
+from build_fmu.compile import compile_library
 from build_fmu.model_description import model_description
 from build_fmu.options import MODEL, PLATFORMS, BuildOptions, host_platform
 from build_fmu.package import zip_fmu
@@ -64,7 +65,8 @@ def _cache_key(options: BuildOptions) -> str:
         repr(options).encode(),
         apnc_core.__version__.encode(),
         importlib.metadata.version("ziglang").encode(),
-        repr(FLAGS).encode(),
+        importlib.resources.files("build_fmu").joinpath("compile.py").read_bytes(),
+        repr([PLATFORMS[name] for name in options.platforms]).encode(),
         model_description(options, [], ""),
         *sources.collect().values(),
     ]

@@ -20,7 +20,10 @@ TS = 1 / 60
 
 
 class FMU2Probe(fmi2.FMU2Slave):
-    """Adds access by scalar name (fmpy wants "FMU2" in front) and keeps what was logged as (status, category, message)."""
+    """Adds access by scalar name and keeps what was logged as (status, category, message).
+
+    fmpy wants the name of the class to begin with FMU2.
+    """
 
     def __init__(self, path: Path) -> None:
         description = fmpy.read_model_description(str(path))

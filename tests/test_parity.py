@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from parity import compare
 
 from apnc_core.enumerations import CouplingSign, KappaRule, Method, PhaseMeasure
 from build_fmu import sources
 from build_fmu.build import fmu_bytes
 from build_fmu.options import BuildOptions, host_platform
-from parity import compare
 
 TOLERANCE = 1e-9
 
