@@ -1,0 +1,88 @@
+"""Puts the parts together into one HTML file that needs nothing but a browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Final
+
+import jinja2
+from markupsafe import Markup
+from plotly.offline import get_plotlyjs
+
+from apnc_studies.report.animation import animation_data
+from apnc_studies.report.encoding import packed, script_json
+from apnc_studies.report.figures import Figure, all_figures
+from apnc_studies.report.skeleton import LILIBOT, Skeleton
+from apnc_studies.report.theme import leg_colours
+from apnc_studies.report.wording import rows, verdicts
+from apnc_studies.summary import Summary
+from exudyn_models.recording import Record
+
+_SCRIPTS: Final = ("plots.js", "scene.js", "animation.js")
+
+
+def write_report(
+    record: Record, summary: Summary, path: Path | str, skeleton: Skeleton | None = None
+) -> Path:
+    """Write the self-contained report of a run.
+
+    Args:
+        record: the run, finished or interrupted.
+        summary: its key figures.
+        path: HTML file to write; its folder must exist.
+        skeleton: geometry of the legs for the animation. None means Lilibot's if the record has
+            Lilibot's legs, else straight legs.
+
+    Returns:
+        The path written.
+
+    Raises:
+        OSError: the file cannot be written.
+        ValueError: the skeleton lacks a leg of the record.
+
+    Pitfall: the file carries plotly.js (about 5 MB) and every sample; it is no archive format.
+    """
+    target = Path(path)
+    target.write_text(render(record, summary, skeleton), encoding="utf-8")
+    return target
+
+
+def render(record: Record, summary: Summary, skeleton: Skeleton | None = None) -> str:
+    """HTML text of the report, see ``write_report``."""
+    if skeleton is None and set(record.legs) == set(LILIBOT.hips):
+        skeleton = LILIBOT
+    figures = all_figures(record, summary) if len(record) else []
+    environment = _environment()
+    template = environment.get_template("report.html.j2")
+    return template.render(
+        summary=summary,
+        verdicts=verdicts(summary),
+        rows=rows(summary),
+        colours=leg_colours(record.legs),
+        figures=figures,
+        css=Markup(_source(environment, "style.css")),
+        scripts=[Markup(_source(environment, name)) for name in _SCRIPTS],
+        plotly=Markup(get_plotlyjs()),
+        data=Markup(script_json(_data(record, figures, skeleton))),
+    )
+
+
+def _data(record: Record, figures: list[Figure], skeleton: Skeleton | None) -> dict[str, Any]:
+    return {
+        "time": packed(record.time, "<f4"),
+        "figures": [
+            {"key": f.key, "data": f.data, "layout": f.layout, "overTime": f.over_time}
+            for f in figures
+        ],
+        "animation": animation_data(record, skeleton),
+    }
+
+
+def _environment() -> jinja2.Environment:
+    loader = jinja2.PackageLoader("apnc_studies.report", "templates")
+    return jinja2.Environment(loader=loader, autoescape=True, undefined=jinja2.StrictUndefined)
+
+
+def _source(environment: jinja2.Environment, name: str) -> str:
+    assert environment.loader is not None
+    return environment.loader.get_source(environment, name)[0]

@@ -1,0 +1,74 @@
+"""Colours and the common look of all plots."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Final
+
+# Okabe & Ito (2008), readable with the common colour vision deficiencies; yellow is left out
+# because it vanishes on white.
+BLUE: Final = "#0072B2"
+ORANGE: Final = "#E69F00"
+GREEN: Final = "#009E73"
+PURPLE: Final = "#CC79A7"
+VERMILLION: Final = "#D55E00"
+SKY: Final = "#56B4E9"
+INK: Final = "#1f2933"
+GREY: Final = "#8a94a0"
+GRID: Final = "#e7eaee"
+BAND: Final = "rgba(31, 41, 51, 0.07)"
+
+_BY_NAME: Final = {
+    "RF": BLUE,
+    "RH": ORANGE,
+    "LF": GREEN,
+    "LH": PURPLE,
+    "RM": VERMILLION,
+    "LM": SKY,
+}
+
+
+def leg_colours(legs: Sequence[str]) -> dict[str, str]:
+    """One colour per leg, the same in every plot and in the animation."""
+    spare = [c for c in _BY_NAME.values() if c not in [_BY_NAME.get(leg) for leg in legs]]
+    spare += [INK, GREY]
+    others = [leg for leg in legs if leg not in _BY_NAME]
+    fallback = {leg: spare[i % len(spare)] for i, leg in enumerate(others)}
+    return {leg: _BY_NAME.get(leg) or fallback[leg] for leg in legs}
+
+
+def axis(title: str, **more: Any) -> dict[str, Any]:
+    """Axis with a title, faint grid and no zero line."""
+    common = {
+        "title": {"text": title, "standoff": 8},
+        "gridcolor": GRID,
+        "zeroline": False,
+        "linecolor": "#c8ced6",
+        "ticks": "outside",
+        "tickcolor": "#c8ced6",
+        "ticklen": 4,
+    }
+    return common | more
+
+
+def layout(height: int, **more: Any) -> dict[str, Any]:
+    """Layout of a plot; fixed left and right margins keep all time axes aligned."""
+    common = {
+        "height": height,
+        "margin": {"l": 74, "r": 46, "t": 34, "b": 44},
+        "paper_bgcolor": "rgba(0,0,0,0)",
+        "plot_bgcolor": "#ffffff",
+        "font": {"family": "system-ui, 'Segoe UI', Roboto, sans-serif", "size": 12, "color": INK},
+        "hovermode": "x unified",
+        "legend": {
+            "orientation": "h",
+            "x": 0,
+            "xanchor": "left",
+            "y": 1.0,
+            "yanchor": "bottom",
+            "bgcolor": "rgba(255,255,255,0)",
+        },
+        "hoverlabel": {"font": {"size": 12}},
+        "modebar": {"bgcolor": "rgba(0,0,0,0)", "color": "#b3bbc5", "activecolor": BLUE},
+    }
+    return common | more
