@@ -17,7 +17,7 @@ typedef struct {
 } fmu;
 
 /* Phases in which a function may be called. */
-#define ANY (APNC_INSTANTIATED | APNC_INITIALIZATION | APNC_STEPPING | APNC_TERMINATED)
+#define ANY      (APNC_INSTANTIATED | APNC_INITIALIZATION | APNC_STEPPING | APNC_TERMINATED)
 #define READABLE (APNC_INITIALIZATION | APNC_STEPPING | APNC_TERMINATED)
 #define WRITABLE (APNC_INSTANTIATED | APNC_INITIALIZATION | APNC_STEPPING)
 
@@ -123,8 +123,7 @@ void fmi2FreeInstance(fmi2Component c) {
 }
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance,
-                               fmi2Real startTime, fmi2Boolean stopTimeDefined,
-                               fmi2Real stopTime) {
+                               fmi2Real startTime, fmi2Boolean stopTimeDefined, fmi2Real stopTime) {
     fmu *f = (fmu *)c;
     (void)toleranceDefined;
     (void)tolerance;
@@ -171,22 +170,22 @@ static fmi2Status access(fmu *f, int phases, const char *function, const fmi2Val
     return fmi2OK;
 }
 
-#define GETTER(function, fmi_type, type)                                                         \
-    fmi2Status function(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,              \
-                        fmi_type value[]) {                                                      \
-        fmi2Status status = access((fmu *)c, READABLE, #function, vr, nvr, value);               \
-        for (size_t i = 0; i < nvr && status == fmi2OK; i++)                                     \
-            status = (fmi2Status)apnc_get((apnc_instance *)c, vr[i], type, &value[i]);           \
-        return status;                                                                           \
+#define GETTER(function, fmi_type, type)                                                           \
+    fmi2Status function(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,                \
+                        fmi_type value[]) {                                                        \
+        fmi2Status status = access((fmu *)c, READABLE, #function, vr, nvr, value);                 \
+        for (size_t i = 0; i < nvr && status == fmi2OK; i++)                                       \
+            status = (fmi2Status)apnc_get((apnc_instance *)c, vr[i], type, &value[i]);             \
+        return status;                                                                             \
     }
 
-#define SETTER(function, fmi_type, type)                                                         \
-    fmi2Status function(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,              \
-                        const fmi_type value[]) {                                                \
-        fmi2Status status = access((fmu *)c, WRITABLE, #function, vr, nvr, value);               \
-        for (size_t i = 0; i < nvr && status == fmi2OK; i++)                                     \
-            status = (fmi2Status)apnc_set((apnc_instance *)c, vr[i], type, &value[i]);           \
-        return status;                                                                           \
+#define SETTER(function, fmi_type, type)                                                           \
+    fmi2Status function(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,                \
+                        const fmi_type value[]) {                                                  \
+        fmi2Status status = access((fmu *)c, WRITABLE, #function, vr, nvr, value);                 \
+        for (size_t i = 0; i < nvr && status == fmi2OK; i++)                                       \
+            status = (fmi2Status)apnc_set((apnc_instance *)c, vr[i], type, &value[i]);             \
+        return status;                                                                             \
     }
 
 GETTER(fmi2GetReal, fmi2Real, APNC_REAL)
@@ -339,8 +338,7 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *va
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value) {
     fmu *f = (fmu *)c;
-    const fmi2Status status =
-        status_of(f, "fmi2GetRealStatus", value, s == fmi2LastSuccessfulTime);
+    const fmi2Status status = status_of(f, "fmi2GetRealStatus", value, s == fmi2LastSuccessfulTime);
     if (status == fmi2OK) *value = f->base.run.time;
     return status;
 }

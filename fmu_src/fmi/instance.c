@@ -101,8 +101,8 @@ static int in_range(const apnc_row *row, double value) {
 static apnc_status report_range(apnc_instance *instance, const apnc_row *row, int element,
                                 double value) {
     return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                       "%s = %g is out of range: %g ... %g is allowed",
-                       name_of(row, element).text, value, row->min, row->max);
+                       "%s = %g is out of range: %g ... %g is allowed", name_of(row, element).text,
+                       value, row->min, row->max);
 }
 
 static double number_at(const apnc_row *row, const void *at) {
@@ -170,8 +170,8 @@ apnc_status apnc_start(apnc_instance *instance) {
 }
 
 /* A command outside its range is used limited, and reported once when that begins. */
-static apnc_status note_limited(apnc_instance *instance, const char *name, double value,
-                                double low, double high, int32_t *noted) {
+static apnc_status note_limited(apnc_instance *instance, const char *name, double value, double low,
+                                double high, int32_t *noted) {
     const int outside = !(value >= low && value <= high);
     const int begins = outside && !*noted;
     *noted = outside;
@@ -201,8 +201,8 @@ static apnc_status tick(apnc_instance *instance) {
     int32_t fault_before[APNC_LEGS];
     apnc_status status = APNC_OK;
     memcpy(fault_before, data->outputs.fault, sizeof fault_before);
-    if (note_limited(instance, "MI", data->inputs.MI, APNC_MI_MIN, APNC_MI_MAX,
-                     &run->limited_MI) != APNC_OK)
+    if (note_limited(instance, "MI", data->inputs.MI, APNC_MI_MIN, APNC_MI_MAX, &run->limited_MI) !=
+        APNC_OK)
         status = APNC_WARNING;
     if (note_limited(instance, "turn", data->inputs.turn, APNC_TURN_MIN, APNC_TURN_MAX,
                      &run->limited_turn) != APNC_OK)
@@ -249,7 +249,7 @@ typedef struct {
     uint64_t checksum; /* FNV-1a of apnc_run */
 } blob_header;
 
-#define BLOB_MAGIC "APNCrun"
+#define BLOB_MAGIC   "APNCrun"
 #define BLOB_VERSION 1u
 
 static uint64_t checksum(const unsigned char *bytes, size_t size) {
@@ -288,8 +288,7 @@ apnc_status apnc_blob_read(apnc_instance *instance, const unsigned char *blob, s
     memcpy(&header, blob, sizeof header);
     if (memcmp(header.magic, BLOB_MAGIC, sizeof header.magic) != 0)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "not a saved state of this FMU");
-    if (header.version != BLOB_VERSION || header.legs != APNC_LEGS ||
-        header.size != sizeof *run)
+    if (header.version != BLOB_VERSION || header.legs != APNC_LEGS || header.size != sizeof *run)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                            "saved state is of version %lu for %lu legs; this FMU takes version %lu "
                            "for %d legs",

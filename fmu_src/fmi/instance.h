@@ -27,11 +27,11 @@ typedef enum {
 typedef struct {
     apnc_data data;
     apnc_state state;
-    double start_time; /* [s] */
-    double time;       /* [s] end of the last step */
-    int64_t next_tick; /* number of the next tick, due at start_time + next_tick Ts */
-    int32_t phase;     /* apnc_phase */
-    int32_t outdated;  /* outputs do not show the parameters set since */
+    double start_time;  /* [s] */
+    double time;        /* [s] end of the last step */
+    int64_t next_tick;  /* number of the next tick, due at start_time + next_tick Ts */
+    int32_t phase;      /* apnc_phase */
+    int32_t outdated;   /* outputs do not show the parameters set since */
     int32_t limited_MI; /* the value of MI was last found unusable or out of its range */
     int32_t limited_turn;
 } apnc_run;

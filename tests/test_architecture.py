@@ -1,0 +1,51 @@
+"""Data flows one way: no package imports one that comes after it."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+MAY_IMPORT: dict[str, set[str]] = {
+    "apnc_core": set(),
+    "build_fmu": {"apnc_core"},
+    "exudyn_models": {"apnc_core"},
+    "apnc_studies": {"apnc_core", "build_fmu", "exudyn_models"},
+}
+OUTSIDE_OF_CORE = {"numpy"}
+
+
+def imported(path: Path) -> set[str]:
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
+            names.add(node.module.split(".")[0])
+    return names
+
+
+@pytest.mark.parametrize("package", MAY_IMPORT)
+def test_no_package_imports_upwards(package: str) -> None:
+    files = list((ROOT / package).rglob("*.py"))
+    assert files
+    for path in files:
+        ours = imported(path) & set(MAY_IMPORT) - {package}
+        assert ours <= MAY_IMPORT[package], path
+
+
+def test_the_reference_needs_numpy_only() -> None:
+    for path in (ROOT / "apnc_core").glob("*.py"):
+        outside = imported(path) - set(sys.stdlib_module_names) - {"apnc_core"}
+        assert outside <= OUTSIDE_OF_CORE, path
+
+
+def test_the_c_core_knows_no_fmi_and_no_allocation() -> None:
+    for path in (ROOT / "fmu_src" / "core").iterdir():
+        text = path.read_text()
+        for word in ("fmi2", "fmi3", "malloc", "calloc", "stdio.h"):
+            assert word not in text, f"{path.name}: {word}"
