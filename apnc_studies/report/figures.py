@@ -116,8 +116,11 @@ def loads(record: Record, _: Summary) -> Figure:
     force = record.plant["foot_force"][..., 2]
     sensed = record.plant["grf"]
     series = [("ground", force, 1.6, "solid", 1.0), ("sensor", sensed, 1.2, "dot", 0.8)]
-    data, layout = leg_panels(record.legs, series, "GRF [N]")
-    note = "Solid: force of the ground on the foot. Dotted: what the foot sensor tells the FMU."
+    data, layout = leg_panels(record.legs, series, "GRF [N]", _load_range(record))
+    note = (
+        "Solid: force of the ground on the foot. Dotted: what the foot sensor tells the FMU. "
+        "The frame is made for the loads of walking and cuts off impact peaks; Autoscale shows all."
+    )
     return Figure("grf", "Ground reaction forces", note, data, layout)
 
 
@@ -125,7 +128,7 @@ def outputs(record: Record, _: Summary) -> Figure:
     """CPG outputs, one row per leg."""
     c = record.controller
     series = [("o1 (hip)", c["o1"], 1.8, "solid", 1.0), ("o2 (knee)", c["o2"], 1.2, "dot", 0.9)]
-    data, layout = leg_panels(record.legs, series, "output [1]")
+    data, layout = leg_panels(record.legs, series, "output [1]", (-1.2, 1.2))
     return Figure("cpg", "CPG outputs", "o1 drives the hip, o2 the knee.", data, layout)
 
 
@@ -232,6 +235,13 @@ def _bars(record: Record, leg: str, standing: NDArray[np.bool_], tick: float) ->
         "marker": {"color": "#111418", "line": {"width": 0}},
         "hovertemplate": f"{leg} stands for %{{x:.2f}} s<extra></extra>",
     }
+
+
+def _load_range(record: Record) -> tuple[float, float]:
+    force = record.plant["foot_force"][..., 2]
+    # A handful of impacts may be ten times the load of a step and would flatten every step.
+    usual = float(np.quantile(force, 0.995))
+    return -0.05 * usual, max(1.2 * usual, 1.0)
 
 
 def _targets(summary: Summary) -> list[Trace]:

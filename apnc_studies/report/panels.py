@@ -19,7 +19,10 @@ _GAP: Final = 0.045
 
 
 def leg_panels(
-    legs: Sequence[str], series: Sequence[Series], title: str
+    legs: Sequence[str],
+    series: Sequence[Series],
+    title: str,
+    y_range: tuple[float, float] | None = None,
 ) -> tuple[list[dict[str, Any]], dict[str, Any]]:
     """Traces and layout of stacked rows, one per leg, sharing the time axis and the y range.
 
@@ -27,6 +30,7 @@ def leg_panels(
         legs: leg names, top row first.
         series: signals drawn in every row.
         title: title of the y axes with unit.
+        y_range: range of every row to begin with; None fits the data.
     """
     colours = theme.leg_colours(legs)
     traces = [_trace(leg, i, one, colours[leg]) for i, leg in enumerate(legs) for one in series]
@@ -35,7 +39,7 @@ def leg_panels(
     layout = theme.layout(80 + _ROW * len(legs), annotations=_names(legs, colours, title))
     layout["xaxis"] = theme.axis("time [s]", anchor=f"y{len(legs)}" if len(legs) > 1 else "y")
     for i in range(len(legs)):
-        layout[f"yaxis{i + 1 if i else ''}"] = _row_axis(i, len(legs))
+        layout[f"yaxis{i + 1 if i else ''}"] = _row_axis(i, len(legs), y_range)
     return traces, layout
 
 
@@ -45,8 +49,10 @@ def _span(i: int, n: int) -> tuple[float, float]:
     return max(0.0, top - height), top
 
 
-def _row_axis(i: int, n: int) -> dict[str, Any]:
-    shared = {} if i == 0 else {"matches": "y"}
+def _row_axis(i: int, n: int, y_range: tuple[float, float] | None) -> dict[str, Any]:
+    shared: dict[str, Any] = {} if i == 0 else {"matches": "y"}
+    if y_range is not None:
+        shared["range"] = list(y_range)
     domain = list(_span(i, n))
     return theme.axis("", domain=domain, nticks=3, showline=True, mirror=True, **shared)
 

@@ -41,9 +41,11 @@ def number(value: float | None, digits: int = 2, unit: str = "") -> str:
 def rows(summary: Summary) -> list[tuple[str, str, str]]:
     """Rows of the summary table: name, value with unit, what it means."""
     s = summary
-    legs = ", ".join(f"{leg} {number(duty)}" for leg, duty in s.duty_factor.items())
+    legs = ", ".join(
+        f"{leg}\N{NO-BREAK SPACE}{number(duty)}" for leg, duty in s.duty_factor.items()
+    )
     pairs = zip(range(2, 9), s.phi_final, strict=False)
-    phases = ", ".join(f"φ1{k} {phase_text(phase)}" for k, phase in pairs)
+    phases = ", ".join(f"φ1{k}\N{NO-BREAK SPACE}{phase_text(phase)}" for k, phase in pairs)
     name = gait_name(s).capitalize()
     return [
         ("Controller", f"{s.method.upper()}, MI {s.mi:g}, seed {s.seed}", ""),
@@ -65,7 +67,7 @@ def rows(summary: Summary) -> list[tuple[str, str, str]]:
 
 def phase_text(phase: float | None) -> str:
     """Phase as a multiple of pi, such as 0.98 π."""
-    return DASH if phase is None else f"{phase / math.pi:.2f} π"
+    return DASH if phase is None else f"{phase / math.pi:.2f}\N{NO-BREAK SPACE}π"
 
 
 def _walked(s: Summary) -> Verdict:

@@ -81,7 +81,7 @@
   $("out").addEventListener("click", () => zoom(0.8));
   for (const button of document.querySelectorAll("#views button")) {
     button.addEventListener("click", () => {
-      scene.view(button.dataset.view);
+      scene.view(button.dataset.view, scene.rpy[3 * sampleAt(now) + 2]);
       document.querySelectorAll("#views button").forEach((b) => b.classList.toggle("on", b === button));
       show();
     });

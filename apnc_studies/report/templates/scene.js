@@ -18,9 +18,11 @@ apnc.Scene = class {
     this.zoom = 1;
   }
 
-  view(name) {
+  // Presets are relative to a heading, so that the side view stays one after a turn.
+  view(name, yaw = 0) {
     const presets = { orbit: [-0.95, 0.42], side: [-Math.PI / 2, 0.0], top: [-Math.PI / 2, Math.PI / 2], front: [0, 0.0] };
     [this.azimuth, this.elevation] = presets[name];
+    this.azimuth += yaw;
   }
 
   // Where and when every foot came down, so that past steps can be shown on the ground.
