@@ -11,6 +11,9 @@ from apnc_core.enumerations import Enumeration
 VR_STRIDE: Final = 100
 """Value reference = VR_STRIDE * row of the table + element, the same for any number of legs."""
 
+VR_TIME: Final = 9900
+"""Value reference of the independent variable, which FMI 3.0 wants; beyond all rows."""
+
 MAX_LEGS: Final = 64
 
 

@@ -96,6 +96,7 @@ def build_command(
     output: Annotated[Path, typer.Option(help="File to write.")] = Path("Apnc.fmu"),
     legs: Annotated[int, typer.Option(help="Number of legs.")] = 4,
     naming: Annotated[str, typer.Option(help=f"One of {', '.join(NAMINGS)}.")] = "structured",
+    fmi: Annotated[int, typer.Option(help="Version of the standard, 2 or 3.")] = 2,
     platform: Annotated[
         list[str] | None,
         typer.Option(help=f"One of {', '.join(PLATFORMS)}, all, or host; repeatable."),
@@ -103,7 +104,7 @@ def build_command(
 ) -> None:
     """Build the FMU."""
     chosen = _platforms(platform or ["host"])
-    options = BuildOptions(legs=legs, naming=naming, platforms=chosen)
+    options = BuildOptions(legs=legs, naming=naming, platforms=chosen, fmi=fmi)
     _writable_file(output)
     with err.status("building") as status:
         path = cached_fmu(options, lambda name: status.update(f"compiling for {name}"))

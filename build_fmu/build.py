@@ -16,6 +16,7 @@ import apnc_core
 from build_fmu import sources
 from build_fmu.compile import compile_library
 from build_fmu.model_description import model_description
+from build_fmu.model_description_fmi3 import build_description, model_description_fmi3
 from build_fmu.options import MODEL, PLATFORMS, BuildOptions, host_platform
 from build_fmu.package import zip_fmu
 
@@ -37,12 +38,14 @@ def fmu_bytes(
     Raises:
         BuildError: the compiler failed.
     """
-    files = files or sources.collect()
+    files = files or sources.collect(options.fmi)
     c_files = sources.c_files(files)
     # the guid stands for everything that the description and the binaries are made from
-    guid = sources.guid_of(model_description(options, c_files, ""), *files.values())
+    guid = sources.guid_of(_describe(options, c_files, ""), *files.values())
     files = files | {"apnc_config.h": sources.config_header(options, guid)}
-    content = {"modelDescription.xml": model_description(options, c_files, guid)}
+    content = {"modelDescription.xml": _describe(options, c_files, guid)}
+    if options.fmi == 3:
+        content["sources/buildDescription.xml"] = build_description(c_files)
     content |= {f"sources/{name}": text for name, text in files.items()}
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
@@ -51,8 +54,16 @@ def fmu_bytes(
             progress(name)
             platform = PLATFORMS[name]
             library = compile_library(Path(folder), c_files, platform)
-            content[f"binaries/{name}/{MODEL}{platform.suffix}"] = library
+            content[f"binaries/{platform.folder_for(options.fmi)}/{MODEL}{platform.suffix}"] = (
+                library
+            )
     return zip_fmu(content)
+
+
+def _describe(options: BuildOptions, c_files: list[str], guid: str) -> bytes:
+    if options.fmi == 3:
+        return model_description_fmi3(options, guid)
+    return model_description(options, c_files, guid)
 
 
 def cache_folder() -> Path:
@@ -67,8 +78,8 @@ def _cache_key(options: BuildOptions) -> str:
         importlib.metadata.version("ziglang").encode(),
         importlib.resources.files("build_fmu").joinpath("compile.py").read_bytes(),
         repr([PLATFORMS[name] for name in options.platforms]).encode(),
-        model_description(options, [], ""),
-        *sources.collect().values(),
+        _describe(options, [], ""),
+        *sources.collect(options.fmi).values(),
     ]
     return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16]
 
@@ -90,9 +101,9 @@ def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None
     return path
 
 
-def host_fmu(legs: int = 4) -> Path:
+def host_fmu(legs: int = 4, fmi: int = 2) -> Path:
     """Path of the cached FMU with the binary of this machine only."""
-    return cached_fmu(BuildOptions(legs=legs, platforms=(host_platform(),)))
+    return cached_fmu(BuildOptions(legs=legs, platforms=(host_platform(),), fmi=fmi))
 
 
 def write_atomically(path: Path, content: bytes) -> None:

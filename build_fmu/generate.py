@@ -12,7 +12,7 @@ from typing import Final
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from apnc_core.enumerations import ENUMERATIONS
-from apnc_core.schema import MAX_LEGS, VR_STRIDE, Causality, Shape, Type, Variable
+from apnc_core.schema import MAX_LEGS, VR_STRIDE, VR_TIME, Causality, Shape, Type, Variable
 from apnc_core.variables import N_WINDOW_MAX, TABLE, rows
 
 ROOT: Final = Path(__file__).resolve().parent.parent
@@ -193,6 +193,7 @@ def render() -> dict[str, str]:
         "max_legs": MAX_LEGS,
         "window_max": N_WINDOW_MAX,
         "vr_stride": VR_STRIDE,
+        "vr_time": VR_TIME,
     }
     env = _environment()
     return {path: env.get_template(name).render(context) for name, path in TARGETS.items()}

@@ -10,11 +10,17 @@ from typing import Final
 
 from build_fmu.options import BuildOptions
 
-_FMI_HEADERS: Final = ("fmi2Functions.h", "fmi2FunctionTypes.h", "fmi2TypesPlatform.h")
+_FMI_HEADERS: Final = {
+    2: ("fmi2Functions.h", "fmi2FunctionTypes.h", "fmi2TypesPlatform.h"),
+    3: ("fmi3Functions.h", "fmi3FunctionTypes.h", "fmi3PlatformTypes.h"),
+}
 
 
-def collect() -> dict[str, bytes]:
+def collect(fmi: int = 2) -> dict[str, bytes]:
     """C files and headers by name, without the configuration header.
+
+    Args:
+        fmi: version of the standard, 2 or 3.
 
     The headers of the standard come from the ``fmpy`` package.
     """
@@ -23,15 +29,18 @@ def collect() -> dict[str, bytes]:
         entry.name: entry.read_bytes()
         for folder in ("core", "fmi")
         for entry in root.joinpath(folder).iterdir()
-        if _is_source(entry)
+        if _is_source(entry, fmi)
     }
     headers = importlib.resources.files("fmpy").joinpath("c-code")
-    files |= {name: headers.joinpath(name).read_bytes() for name in _FMI_HEADERS}
+    files |= {name: headers.joinpath(name).read_bytes() for name in _FMI_HEADERS[fmi]}
     return dict(sorted(files.items()))
 
 
-def _is_source(entry: Traversable) -> bool:
-    return entry.name.endswith((".c", ".h")) and entry.name != "apnc_config.h"
+def _is_source(entry: Traversable, fmi: int) -> bool:
+    if entry.name == "apnc_config.h" or not entry.name.endswith((".c", ".h")):
+        return False
+    # files named fmi2... and fmi3... belong to that version of the standard only
+    return not entry.name.startswith("fmi") or entry.name.startswith(f"fmi{fmi}")
 
 
 def c_files(files: dict[str, bytes]) -> list[str]:

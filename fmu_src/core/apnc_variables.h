@@ -17,6 +17,7 @@
 #define APNC_RELATIONS (APNC_LEGS - 1) /* phase relations phi_1k, k = 2 ... APNC_LEGS */
 #define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
 #define APNC_VR_STRIDE 100u /* value reference = stride * row + element */
+#define APNC_VR_TIME 9900u /* of the independent variable in FMI 3.0 */
 #define APNC_ROWS 55
 
 #define APNC_MI_START 0.08
