@@ -1,8 +1,10 @@
 from __future__ import annotations
 
+import zipfile
 from pathlib import Path
 
 import pytest
+from raw_fmu import Library
 
 from build_fmu.build import host_fmu
 
@@ -15,3 +17,12 @@ def fmu4() -> Path:
 @pytest.fixture(scope="session")
 def fmu6() -> Path:
     return host_fmu(6)
+
+
+@pytest.fixture(scope="session")
+def library(fmu4: Path, tmp_path_factory: pytest.TempPathFactory) -> Library:
+    """The library of the FMU for this machine, for calls that fmpy would not make."""
+    folder = tmp_path_factory.mktemp("library")
+    with zipfile.ZipFile(fmu4) as archive:
+        archive.extractall(folder)
+    return Library.load(folder)
