@@ -21,6 +21,7 @@ from fmpy.fmi1 import FMICallException
 from apnc_core.schema import Causality, Shape, Type, Value, Variable
 from apnc_core.variables import TABLE, Scalar, row, scalars
 from exudyn_models.recording import Array
+from exudyn_models.trace import Trace
 
 Setting = Value | Sequence[float]
 
@@ -219,14 +220,31 @@ class FmuController:
             raise FmuError(self._why(error)) from error
         self.wall_s += time.perf_counter() - begin
 
+    def _blocks(self) -> tuple[Block, ...]:
+        return (self._real_in, self._reset_in, self._reals, self._integers, self._booleans)
+
+    def trace(self, ticks: int) -> Trace:
+        """A recorder of all inputs, outputs and local variables, a row per tick.
+
+        Args:
+            ticks: rows expected.
+        """
+        return Trace([block.view for block in self._blocks()], self._channels, ticks)
+
     def sample(self) -> dict[str, Array]:
         """All inputs, outputs and local variables now, by row name; shape () or (entries,)."""
-        blocks = (self._real_in, self._reset_in, self._reals, self._integers, self._booleans)
-        return {
-            v.name: _entry(v, block.view, first, count)
-            for block in blocks
-            for v, first, count in block.names
-        }
+        trace = self.trace(1)
+        trace.take()
+        return {name: values[0] for name, values in trace.channels().items()}
+
+    def _channels(self, rows: Array) -> dict[str, Array]:
+        channels, start = {}, 0
+        for block in self._blocks():
+            for v, first, count in block.names:
+                values = rows[:, start + first : start + first + count].copy()
+                channels[v.name] = values[:, 0] if v.shape is Shape.scalar else values
+            start += len(block.view)
+        return channels
 
     def close(self) -> None:
         """Free the instance and its files."""
@@ -251,11 +269,6 @@ class FmuController:
 def _span(place: tuple[int, int]) -> tuple[int, int]:
     first, count = place
     return first, first + count
-
-
-def _entry(v: Variable, view: np.ndarray[Any, np.dtype[Any]], first: int, count: int) -> Array:
-    values: Array = view[first : first + count].astype(np.float64)
-    return values.reshape(()) if v.shape is Shape.scalar else values
 
 
 def check_fmu(path: Path | str) -> Any:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
+from exudyn_models.conditions import Conditions
 from exudyn_models.plant import Plant, PlantError
 from exudyn_models.recording import Array, Record
+from exudyn_models.trace import Trace
 
 
 @dataclass(frozen=True)
@@ -32,11 +34,12 @@ class Controller(Protocol):
     def step(self, t: float, h: float, grf: Array, MI: float, turn: float, reset: bool) -> None:
         """Step from ``t`` by ``h`` [s] on the loads [N] and commands given."""
 
-    def sample(self) -> Mapping[str, Array]:
-        """All inputs and outputs now, by row name of the table of variables."""
+    def trace(self, ticks: int) -> Trace:
+        """A recorder of all inputs and outputs, by row name of the table of variables."""
 
 
 Schedule = Callable[[float], Commands]
+Circumstances = Callable[[float], Conditions]
 Progress = Callable[[float, Controller], None]
 
 
@@ -48,6 +51,7 @@ def run(
     schedule: Schedule,
     progress: Progress = lambda t, controller: None,
     stop: Callable[[], bool] = lambda: False,
+    circumstances: Circumstances | None = None,
 ) -> Record:
     """Walk the robot under the controller.
 
@@ -62,24 +66,28 @@ def run(
         schedule: commands at a time [s].
         progress: called after every tick with the time [s].
         stop: asked before every tick; True ends the run.
+        circumstances: conditions of the robot at a time [s]; those it was built with if omitted.
 
     Returns:
         The record. A plant that diverges or ``stop`` end it early, and what was recorded stays.
     """
     begin = time.perf_counter()
-    times: list[float] = []
-    bodies: list[Mapping[str, Array]] = []
-    brains: list[Mapping[str, Array]] = []
     planned, error = round(duration / Ts), ""
+    times: list[float] = []
+    body, brain = plant.trace(planned), controller.trace(planned)
+    present: Conditions | None = None
     for n in range(planned):
         if stop():
             break
         t = n * Ts
+        if circumstances and (conditions := circumstances(t)) is not present:
+            plant.set_conditions(conditions)
+            present = conditions
         commands = schedule(t)
         controller.step(t, Ts, plant.grf(), commands.MI, commands.turn, commands.reset)
         times.append(t)
-        bodies.append(plant.sample())
-        brains.append(controller.sample())
+        body.take()
+        brain.take()
         try:
             plant.advance(controller.theta_hip, controller.theta_knee, Ts)
         except PlantError as problem:
@@ -89,17 +97,11 @@ def run(
     return Record(
         legs=plant.legs,
         time=np.array(times),
-        plant=_stacked(bodies),
-        controller=_stacked(brains),
+        plant=body.channels() if times else {},
+        controller=brain.channels() if times else {},
         mass=plant.mass,
         complete=len(times) == planned and not error,
         error=error,
         fmu_wall_s=controller.wall_s,
         wall_s=time.perf_counter() - begin,
     )
-
-
-def _stacked(samples: list[Mapping[str, Array]]) -> dict[str, Array]:
-    if not samples:
-        return {}
-    return {name: np.array([sample[name] for sample in samples]) for name in samples[0]}

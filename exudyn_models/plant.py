@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 
-from exudyn_models.description import GRAVITY, Array, RobotDescription
+from exudyn_models.conditions import Conditions
 from exudyn_models.engine import exu
-from exudyn_models.ground import add_ground, foot_forces
-from exudyn_models.kinematics import Kinematics, LegState, rotation_rpy
+from exudyn_models.forces import rotation_rpy
+from exudyn_models.robot import GRAVITY, Array, RobotDescription
+from exudyn_models.robot_forces import RobotForces
 from exudyn_models.sensor import LoadSensor
-from exudyn_models.servo import add_servos, servo_torque
+from exudyn_models.start import start_coordinates
+from exudyn_models.terrain import Ground
+from exudyn_models.trace import Trace
 from exudyn_models.tree import BASE, JOINT_SIGN, add_tree
 
 TIPPED_OVER: Final = math.radians(60.0)
@@ -51,42 +55,27 @@ class PlantOptions:
                 raise ValueError(f"{name} is {value}; allowed: a finite number")
 
 
-@dataclass(frozen=True)
-class _State:
-    """Everything measured at one instant: computed once per tick, read by several methods.
-
-    Args:
-        coordinates, speeds: of the tree, shape (6 + 3 n_legs,).
-        joints, joint_speeds: in the sense of the controller, shape (n_legs, 3).
-        trunk: rotation from trunk to world, shape (3, 3).
-        legs: feet and joint axes in the trunk frame.
-        foot_force: force of the ground on the feet, world frame [N], shape (n_legs, 3).
-    """
-
-    coordinates: Array
-    speeds: Array
-    joints: Array
-    joint_speeds: Array
-    trunk: Array
-    legs: LegState
-    foot_force: Array
-
-
 class Plant:
     """One robot in its own Exudyn system.
 
-    It stands upright with level trunk and feet just above the ground, at rest. The same robot,
-    seed and commands give the same motion bit for bit.
+    It stands parallel to the ground with its feet just above it, at rest. The same robot, seed,
+    ground, conditions and commands give the same motion bit for bit.
 
     Attributes:
         n_legs: number of legs.
         legs: their names.
-        mass: total mass [kg].
+        mass: total mass with payload [kg].
         time: simulated time [s].
     """
 
     def __init__(
-        self, robot: RobotDescription, seed: int = 0, *, options: PlantOptions | None = None
+        self,
+        robot: RobotDescription,
+        seed: int = 0,
+        *,
+        options: PlantOptions | None = None,
+        ground: Ground | None = None,
+        conditions: Conditions | None = None,
     ) -> None:
         """Put the robot on the ground.
 
@@ -94,44 +83,75 @@ class Plant:
             robot: the robot.
             seed: chooses the sideways error of the centre of mass and the sensor noise.
             options: start and integration.
+            ground: what it stands on; level and smooth if omitted.
+            conditions: payload, damage and the like; none if omitted.
+
+        Raises:
+            ValueError: conditions name a leg the robot does not have.
+            PlantError: Exudyn refused the model.
         """
         self._robot, self._options = robot, options or PlantOptions()
+        self._ground = ground or Ground()
+        self._conditions = conditions or Conditions()
         self.legs = tuple(leg.name for leg in robot.legs)
         self.n_legs = len(self.legs)
-        self.mass = robot.mass
+        self.mass = robot.mass + self._conditions.payload
         self.time = 0.0
         body_seed, noise_seed = np.random.SeedSequence(seed).spawn(2)
         self._sensor = LoadSensor(
-            robot.sensor, self.n_legs, robot.weight, np.random.default_rng(noise_seed)
+            robot.sensor, self.legs, robot.weight, np.random.default_rng(noise_seed)
         )
         self._reading = np.zeros(self.n_legs)
-        self._kinematics = Kinematics(robot)
         self._corners = robot.trunk.corners()
         self._build(_side_offset(robot, np.random.default_rng(body_seed)))
+        self.set_conditions(self._conditions)
 
     def _build(self, side_offset: float) -> None:
-        options = self._options
-        start = self._start_coordinates()
-        self._targets = start[BASE:]
+        options, robot = self._options, self._robot
+        angles = np.array([0.0, options.start_hip, options.start_knee])
+        self._start = start_coordinates(robot, self._ground, angles, options.clearance)
+        coordinates = self._start.copy()
+        coordinates[2] += self._conditions.held_at or 0.0
+        self._forces = RobotForces(robot, self._ground, coordinates[BASE:])
+        self._coming: deque[tuple[float, Array]] = deque()
         # The container owns the system: without this reference Exudyn frees it under our feet.
         self._container = exu.SystemContainer()
         self._mbs: Any = self._container.AddSystem()
-        self._tree = add_tree(self._mbs, self._robot, side_offset, options.gravity, start)
-        self._servos = add_servos(self._mbs, self._tree, self._robot.servo, self._targets)
-        self._contacts = add_ground(self._mbs, self._tree, self._robot.contact)
+        load = self._conditions.payload
+        body = robot.trunk.loaded(side_offset, load)
+        self._tree = add_tree(self._mbs, robot, body, options.gravity, coordinates, self._forces)
         self._mbs.Assemble()
         self._settings = _solver_settings(options.step)
         self._solver: Any = exu.MainSolverExplicit()
         if not self._solver.InitializeSolver(self._mbs, self._settings):
             raise PlantError("Exudyn refused the model")
-        self._state = self._measure()
+        self._q, self._v = coordinates.copy(), np.zeros_like(coordinates)
+        self._measure()
 
-    def _start_coordinates(self) -> Array:
-        angles = np.tile([0.0, self._options.start_hip, self._options.start_knee], (self.n_legs, 1))
-        lowest_foot = self._kinematics.legs(angles).foot[:, 2].min()
-        height = self._options.clearance + self._robot.contact.foot_radius - lowest_foot
-        base = np.array([0.0, 0.0, height, 0.0, 0.0, 0.0])
-        return np.concatenate([base, (angles * JOINT_SIGN).ravel()])
+    def set_conditions(self, conditions: Conditions) -> None:
+        """Change what is wrong with the robot, from now on.
+
+        Raises:
+            ValueError: an unknown leg, or another payload than the plant was built with.
+        """
+        conditions.check_legs(self.legs)
+        if conditions.payload != self._conditions.payload:
+            raise ValueError(
+                f"payload is {conditions.payload} kg; allowed: {self._conditions.payload} kg, "
+                "fixed when the plant was built"
+            )
+        self._conditions = conditions
+        self._damaged = [leg in conditions.damaged for leg in self.legs]
+        self._sensor.disturb(conditions)
+        self._forces.hold(self._held_pose(conditions.held_at))
+
+    def _held_pose(self, height: float | None) -> Array | None:
+        if height is None:
+            return None
+        pose = self._start[:BASE].copy()
+        pose[[0, 1, 3]] = self._q[[0, 1, 3]]
+        pose[2] += height
+        return pose
 
     def grf(self) -> Array:
         """Load of each foot as the sensors deliver it since the last tick [N], shape (n_legs,)."""
@@ -153,61 +173,91 @@ class Plant:
         targets = self._checked_targets(theta_hip, theta_knee)
         if not (math.isfinite(duration) and duration > 0.0):
             raise ValueError(f"duration is {duration}; allowed: a finite number above 0")
-        self._targets = (targets * JOINT_SIGN).ravel()
-        self._servos.command(self._mbs, self._targets)
-        self._integrate(duration)
-        self._state = self._measure()
-        self._reading = self._sensor.update(self.time, self._state.foot_force[:, 2], duration)
+        targets[self._damaged] = 0.0
+        self._coming.append((self.time + self._robot.servo.latency, targets * JOINT_SIGN))
+        self._integrate_to(self.time + duration)
+        self._measure()
+        load = self._felt_load()
+        self._reading[:] = self._sensor.update(self.time, load, duration)
 
     def _checked_targets(self, theta_hip: Array, theta_knee: Array) -> Array:
-        for name, value in (("theta_hip", theta_hip), ("theta_knee", theta_knee)):
+        targets = np.zeros((self.n_legs, 3))
+        for column, name, value in ((1, "theta_hip", theta_hip), (2, "theta_knee", theta_knee)):
             if np.shape(value) != (self.n_legs,) or not np.isfinite(value).all():
                 raise ValueError(f"{name} is {value}; allowed: {self.n_legs} finite angles")
-        return np.stack([np.zeros(self.n_legs), theta_hip, theta_knee], axis=1)
+            targets[:, column] = value
+        return targets
 
-    def _integrate(self, duration: float) -> None:
-        self.time += duration
+    def _felt_load(self) -> Array:
+        if self._robot.sensor.component == "norm":
+            return np.asarray(np.linalg.norm(self._forces.force.reshape(-1, 3), axis=1))
+        return self._forces.load.copy()
+
+    def _integrate_to(self, end: float) -> None:
+        while self._coming and self._coming[0][0] < end:
+            arrival, targets = self._coming.popleft()
+            if arrival > self.time:
+                self._integrate(arrival)
+            self._forces.target[:] = targets.ravel()
+        self._integrate(end)
+
+    def _integrate(self, end: float) -> None:
+        duration = end - self.time
         steps = max(1, math.ceil(duration / self._options.step - 1e-9))
         iteration = self._solver.it
         iteration.maxStepSize = iteration.currentStepSize = duration / steps
-        iteration.endTime = self.time
+        iteration.endTime = self.time = end
         solved = self._solver.SolveSteps(self._mbs, self._settings)
-        if not solved or not np.isfinite(self._mbs.systemData.GetODE2Coordinates()).all():
+        data = self._mbs.systemData
+        self._q[:], self._v[:] = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+        if not solved or not np.isfinite(self._q).all():
             raise PlantError(f"the motion diverged before t = {self.time:.4f} s")
 
-    def _measure(self) -> _State:
-        q = np.array(self._mbs.systemData.GetODE2Coordinates())
-        speeds = np.array(self._mbs.systemData.GetODE2Coordinates_t())
-        joints = q[BASE:].reshape(-1, 3) * JOINT_SIGN
-        joint_speeds = speeds[BASE:].reshape(-1, 3) * JOINT_SIGN
-        trunk = rotation_rpy(q[5], q[4], q[3])
-        legs = self._kinematics.legs(joints)
-        force = foot_forces(self._contacts, legs, trunk, self._robot.contact.foot_radius)
-        return _State(q, speeds, joints, joint_speeds, trunk, legs, force)
+    def _measure(self) -> None:
+        self._forces.measure(self._q, self._v)
+
+    def trace(self, ticks: int) -> Trace:
+        """A recorder of every channel in ``recording.PLANT_CHANNELS``, a row per tick.
+
+        Args:
+            ticks: rows expected.
+        """
+        parts = (self._q, self._v, self._forces.result, self._reading)
+        return Trace(parts, self._channels, ticks)
 
     def sample(self) -> dict[str, Array]:
         """One sample of every channel in ``recording.PLANT_CHANNELS``, at the current time."""
-        state = self._state
-        q = state.coordinates
-        target = self._targets.reshape(-1, 3) * JOINT_SIGN
-        torque = servo_torque(self._robot.servo, target, state.joints, state.joint_speeds)
+        trace = self.trace(1)
+        trace.take()
+        return {name: values[0] for name, values in trace.channels().items()}
+
+    def _channels(self, rows: Array) -> dict[str, Array]:
+        n, size = self.n_legs, BASE + 3 * self.n_legs
+        widths = [size, size, 3 * n, 3 * n, 3 * n, n, n]
+        q, v, torque, foot, force, _, reading = np.split(rows, np.cumsum(widths)[:-1], axis=1)
+
+        def per_leg(values: Array) -> Array:
+            return values.reshape(-1, n, 3)
+
         return {
-            "position": q[:3].copy(),
-            "rpy": q[[5, 4, 3]],
-            "velocity": state.speeds[:3].copy(),
-            "joint_angle": state.joints.copy(),
-            "joint_speed": state.joint_speeds.copy(),
-            "joint_torque": torque,
-            "foot_position": q[:3] + state.legs.foot @ state.trunk.T,
-            "foot_force": state.foot_force.copy(),
-            "grf": self.grf(),
+            "position": q[:, :3].copy(),
+            "rpy": q[:, [5, 4, 3]],
+            "velocity": v[:, :3].copy(),
+            "joint_angle": per_leg(q[:, BASE:]) * JOINT_SIGN,
+            "joint_speed": per_leg(v[:, BASE:]) * JOINT_SIGN,
+            "joint_torque": per_leg(torque) * JOINT_SIGN,
+            "foot_position": per_leg(foot.copy()),
+            "foot_force": per_leg(force.copy()),
+            "grf": reading.copy(),
         }
 
     @property
     def fell(self) -> bool:
-        """Whether roll or pitch exceeds 60 degrees or a corner of the trunk touches the ground."""
-        height, pitch, roll = self._state.coordinates[[2, 4, 5]]
-        lowest = height + (self._corners @ self._state.trunk[2]).min()
+        """Whether roll or pitch exceeds 60 degrees or a corner of the trunk touches the plane."""
+        yaw, pitch, roll = self._q[3:6]
+        normal = self._ground.rotation()[:, 2]
+        rotation = np.array(rotation_rpy(roll, pitch, yaw))
+        lowest = ((self._q[:3] + self._corners @ rotation.T) @ normal).min()
         return bool(max(abs(roll), abs(pitch)) > TIPPED_OVER or lowest <= 0.0)
 
 

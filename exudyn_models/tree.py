@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import cos, sin
 from typing import Any, Final
 
 import numpy as np
 
-from exudyn_models.description import Array, Body, Leg, RobotDescription, Vector3
 from exudyn_models.engine import exu, items
+from exudyn_models.robot import Array, Leg, MassProperties, RobotDescription, Vector3
 
 BASE: Final = 6
 """Coordinates of the floating base: x, y, z [m], yaw, pitch, roll [rad]; the joints follow."""
 
 JOINT_SIGN: Final = np.array([1.0, -1.0, -1.0])
 """Tree coordinate per joint angle: Exudyn turns about +y, a leg that swings forward about -y."""
+
+
+MASSLESS: Final = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
+
+Forces = Callable[[Any, float, int, list[float], list[float]], list[float]]
+"""(system, time [s], item, coordinates, speeds) -> generalized forces."""
 
 
 @dataclass(frozen=True)
@@ -25,12 +32,10 @@ class Tree:
     Args:
         node: node that holds the 6 + 3 n_legs coordinates.
         feet: one marker per leg, at the centre of the foot ball.
-        joints: number of joint coordinates.
     """
 
     node: Any
     feet: tuple[Any, ...]
-    joints: int
 
 
 @dataclass
@@ -51,34 +56,39 @@ class _Links:
         parent: int,
         offset: Vector3 = (0.0, 0.0, 0.0),
         pitch: float = 0.0,
-        body: Body | None = None,
-        com: Vector3 = (0.0, 0.0, 0.0),
+        body: MassProperties = MASSLESS,
     ) -> int:
         self.types.append(joint)
         self.parents.append(parent)
         self.offsets.append(np.array(offset))
         self.rotations.append(_rotation_y(pitch))
-        self.masses.append(body.mass if body else 0.0)
-        self.inertias.append(body.inertia() if body else np.zeros((3, 3)))
-        self.coms.append(np.array(com))
+        self.masses.append(body.mass)
+        self.inertias.append(body.inertia)
+        self.coms.append(body.com)
         return len(self.parents) - 1
 
 
 def add_tree(
-    mbs: Any, robot: RobotDescription, side_offset: float, gravity: float, start: Array
+    mbs: Any,
+    robot: RobotDescription,
+    trunk: MassProperties,
+    gravity: float,
+    start: Array,
+    forces: Forces,
 ) -> Tree:
     """Add trunk, legs and reflected rotor inertia to an Exudyn system.
 
     Args:
         mbs: the system.
         robot: the robot.
-        side_offset: sideways error of the trunk's centre of mass [m].
+        trunk: mass properties of the trunk with what it carries.
         gravity: downward acceleration [m/s^2].
         start: initial coordinates, shape (6 + 3 n_legs,), see ``BASE`` and ``JOINT_SIGN``.
+        forces: called by Exudyn for the generalized forces besides gravity.
     """
     links = _Links()
-    trunk = _add_base(links, robot, side_offset)
-    tibias = [_add_leg(links, leg, trunk) for leg in robot.legs]
+    base = _add_base(links, trunk)
+    tibias = [_add_leg(links, leg, base) for leg in robot.legs]
     size = len(links.parents)
     node = mbs.AddNode(
         items.NodeGenericODE2(
@@ -88,7 +98,7 @@ def add_tree(
             numberOfODE2Coordinates=size,
         )
     )
-    tree = mbs.AddObject(_tree_object(links, node, gravity))
+    tree = mbs.AddObject(_tree_object(links, node, gravity, forces))
     _add_reflected_inertia(mbs, node, size, robot.servo.reflected_inertia)
     feet = tuple(
         mbs.AddMarker(
@@ -98,42 +108,38 @@ def add_tree(
         )
         for link, leg in zip(tibias, robot.legs, strict=True)
     )
-    return Tree(node, feet, size - BASE)
+    return Tree(node, feet)
 
 
-def _add_base(links: _Links, robot: RobotDescription, side_offset: float) -> int:
+def _add_base(links: _Links, trunk: MassProperties) -> int:
     kind = exu.JointType
     link = -1
     for joint in (kind.PrismaticX, kind.PrismaticY, kind.PrismaticZ, kind.RevoluteZ):
         link = links.add(joint, link)
     link = links.add(kind.RevoluteY, link)
-    body = robot.trunk.body
-    com = (body.com[0], body.com[1] + side_offset, body.com[2])
-    return links.add(kind.RevoluteX, link, body=body, com=com)
+    return links.add(kind.RevoluteX, link, body=trunk)
 
 
 def _add_leg(links: _Links, leg: Leg, trunk: int) -> int:
     kind = exu.JointType
-    hip = links.add(kind.RevoluteX, trunk, leg.mount, body=leg.hip, com=leg.outward(leg.hip.com))
+    hip = links.add(kind.RevoluteX, trunk, leg.mount, body=leg.mass_properties(leg.hip))
     femur = links.add(
         kind.RevoluteY,
         hip,
         leg.outward(leg.hip_offset),
         pitch=leg.femur_angle,
-        body=leg.femur,
-        com=leg.outward(leg.femur.com),
+        body=leg.mass_properties(leg.femur),
     )
     return links.add(
         kind.RevoluteY,
         femur,
         (0.0, 0.0, -leg.femur_length),
         pitch=-leg.tibia_angle,
-        body=leg.tibia,
-        com=leg.outward(leg.tibia.com),
+        body=leg.mass_properties(leg.tibia),
     )
 
 
-def _tree_object(links: _Links, node: Any, gravity: float) -> Any:
+def _tree_object(links: _Links, node: Any, gravity: float, forces: Forces) -> Any:
     return items.ObjectKinematicTree(
         nodeNumber=node,
         gravity=[0.0, 0.0, -gravity],
@@ -144,6 +150,7 @@ def _tree_object(links: _Links, node: Any, gravity: float) -> Any:
         linkInertiasCOM=exu.Matrix3DList(links.inertias),
         linkCOMs=exu.Vector3DList(links.coms),
         linkMasses=links.masses,
+        forceUserFunction=forces,
     )
 
 

@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from exudyn_models.description import ROBOTS, RobotDescription, load_robot
+from exudyn_models.description import ROBOTS, load_robot
 from exudyn_models.engine import exu
 from exudyn_models.plant import Plant, PlantError, PlantOptions
 from exudyn_models.recording import PLANT_CHANNELS
+from exudyn_models.robot import RobotDescription
 
 TICK = 1 / 60
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])

@@ -5,14 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from exudyn_models.description import Sensor, load_robot
+from exudyn_models.description import load_robot
+from exudyn_models.robot import Sensor
 from exudyn_models.sensor import LoadSensor
 
 CLEAN = Sensor(delay=0.0, time_constant=0.0, noise=0.0)
 
 
 def readings(sensor: Sensor, tick: float, loads: list[float], seed: int = 0) -> np.ndarray:
-    cell = LoadSensor(sensor, 1, 20.0, np.random.default_rng(seed))
+    cell = LoadSensor(sensor, ("RF",), 20.0, np.random.default_rng(seed))
     return np.array(
         [cell.update((k + 1) * tick, np.array([x]), tick)[0] for k, x in enumerate(loads)]
     )

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_models.description import RobotDescription, Servo, load_robot
+from exudyn_models.description import load_robot
+from exudyn_models.forces import servo_torque
 from exudyn_models.plant import Plant, PlantOptions
-from exudyn_models.servo import servo_torque
+from exudyn_models.robot import RobotDescription, Servo
 
 SERVO = Servo(
     stiffness=20.0, damping=0.5, stall_torque=4.0, no_load_speed=5.0, reflected_inertia=1.0
@@ -30,8 +31,8 @@ SERVO = Servo(
     ],
 )
 def test_torque_speed_curve(error: float, speed: float, expected: float) -> None:
-    torque = servo_torque(SERVO, np.array([error]), np.zeros(1), np.array([speed]))
-    assert torque[0] == pytest.approx(expected)
+    limits = np.array([SERVO.stiffness, SERVO.damping, SERVO.stall_torque, SERVO.no_load_speed])
+    assert servo_torque(limits, error, speed) == pytest.approx(expected)
 
 
 def weightless(servo: Servo) -> RobotDescription:

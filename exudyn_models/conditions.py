@@ -1,0 +1,88 @@
+"""What may be wrong with a robot: payload, damage and sensors that lie."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Final
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """The state of a robot that a study sets, on top of its description.
+
+    Args:
+        payload: mass of a box on the trunk [kg]; fixed once a plant is built.
+        grf_noise: standard deviation of noise added to the sensors' own, halves of the weight [1].
+        damaged: legs whose hip and knee are held at angle 0 of the reference pose.
+        stuck: what the sensor of a leg delivers for ever, in halves of the weight [1], by leg.
+        dropout: legs whose sensor delivers 0.
+        held_at: the trunk is held level at this height above its start [m]; None lets it go.
+
+    Raises:
+        ValueError: a number that is negative or not finite.
+    """
+
+    payload: float = 0.0
+    grf_noise: float = 0.0
+    damaged: tuple[str, ...] = ()
+    stuck: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    dropout: tuple[str, ...] = ()
+    held_at: float | None = None
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        numbers = {"payload": self.payload, "grf_noise": self.grf_noise}
+        numbers |= {f"stuck[{leg}]": value for leg, value in self.stuck.items()}
+        if self.held_at is not None:
+            numbers["held_at"] = self.held_at
+        for name, value in numbers.items():
+            if not (math.isfinite(value) and value >= 0.0):
+                raise ValueError(f"{name} is {value}; allowed: a finite number, 0 or more")
+
+    def check_legs(self, legs: tuple[str, ...]) -> None:
+        """Refuse names of legs that the robot does not have.
+
+        Raises:
+            ValueError: an unknown leg.
+        """
+        for leg in (*self.damaged, *self.stuck, *self.dropout):
+            if leg not in legs:
+                raise ValueError(f"leg {leg!r} is not one of {', '.join(legs)}")
+
+
+PAYLOAD: Final = 1.25
+"""Payload of condition C4 [kg]."""
+
+NOISE: Final = 0.2
+"""Added noise of condition C2, halves of the weight; the paper does not print its own."""
+
+CONDITIONS: Final[Mapping[str, Conditions]] = MappingProxyType(
+    {
+        "C1": Conditions(),
+        "C2": Conditions(grf_noise=NOISE),
+        "C3": Conditions(damaged=("RF",)),
+        "C4": Conditions(payload=PAYLOAD),
+        "S1": Conditions(held_at=0.02),
+        "S2": Conditions(stuck=MappingProxyType({"RF": 0.9, "LF": 0.9})),
+        "S3": Conditions(dropout=("RF", "RH", "LF", "LH")),
+    }
+)
+"""Conditions of the paper by name: 3.1.4 (C1 normal, C2 noisy feedback, C3 leg damage, C4 payload)
+and 3.2 (S1 held in the air, S2 front sensors stuck, S3 feedback removed)."""
+
+
+def named_conditions(name: str) -> Conditions:
+    """Conditions of the paper.
+
+    Args:
+        name: ``"C1"`` to ``"C4"`` or ``"S1"`` to ``"S3"``.
+
+    Raises:
+        ValueError: an unknown name.
+    """
+    if name not in CONDITIONS:
+        raise ValueError(f"conditions {name!r} are not one of {', '.join(CONDITIONS)}")
+    return CONDITIONS[name]

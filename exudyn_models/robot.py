@@ -1,0 +1,220 @@
+"""Robots as data: geometry, masses, servos, contact and sensors, independent of any engine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Vector3 = tuple[float, float, float]
+
+GRAVITY: Final = 9.81
+
+PAYLOAD_SIZE: Final = (0.1, 0.1, 0.06)
+"""Edges of the box a payload is [m]."""
+
+
+@dataclass(frozen=True)
+class MassProperties:
+    """Mass [kg], centre of mass [m], shape (3,), and inertia about it [kg m^2], shape (3, 3)."""
+
+    mass: float
+    com: Array
+    inertia: Array
+
+    def joined(self, other: MassProperties) -> MassProperties:
+        """Both bodies rigidly connected, by the parallel-axis theorem."""
+        mass = self.mass + other.mass
+        com = (self.mass * self.com + other.mass * other.com) / mass
+        inertia = self._about(com) + other._about(com)
+        return MassProperties(mass, com, inertia)
+
+    def _about(self, point: Array) -> Array:
+        d = self.com - point
+        return self.inertia + self.mass * ((d @ d) * np.eye(3) - np.outer(d, d))
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid link with the inertia of a homogeneous box.
+
+    Args:
+        mass: mass [kg].
+        size: edge lengths of the box [m].
+        com: centre of mass in the frame of the link [m].
+    """
+
+    mass: float
+    size: Vector3
+    com: Vector3
+
+    def inertia(self) -> Array:
+        """Inertia tensor about the centre of mass [kg m^2], shape (3, 3)."""
+        x, y, z = (edge**2 for edge in self.size)
+        return np.diag([y + z, x + z, x + y]) * (self.mass / 12.0)
+
+
+@dataclass(frozen=True)
+class Trunk:
+    """The body that carries the legs.
+
+    Args:
+        body: mass properties; ``com`` is measured from the reference point between the hips.
+        center: middle of the box [m]; differs from the centre of mass.
+        com_side_offset: size of the seeded sideways error of the centre of mass [m].
+    """
+
+    body: Body
+    center: Vector3
+    com_side_offset: float
+
+    def corners(self) -> Array:
+        """Corners of the box relative to the reference point [m], shape (8, 3)."""
+        signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, 8).T
+        return np.asarray(self.center) + signs * (np.asarray(self.body.size) / 2.0)
+
+    def loaded(self, side_offset: float, payload: float) -> MassProperties:
+        """Mass properties with a box of ``PAYLOAD_SIZE`` standing on the middle of the trunk.
+
+        Args:
+            side_offset: sideways error of the trunk's own centre of mass [m].
+            payload: mass of the box [kg].
+        """
+        com = np.add(self.body.com, [0.0, side_offset, 0.0])
+        own = MassProperties(self.body.mass, com, self.body.inertia())
+        top = (self.body.size[2] + PAYLOAD_SIZE[2]) / 2.0
+        on_top = np.add(self.center, [0.0, 0.0, top])
+        box = Body(payload, PAYLOAD_SIZE, (0.0, 0.0, 0.0))
+        return own.joined(MassProperties(payload, on_top, box.inertia()))
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A leg with an abduction joint about x, and hip and knee joints about y.
+
+    Vectors other than ``mount`` have y pointing outward, away from the middle plane.
+
+    Args:
+        name: name of the leg, e.g. ``"RF"``.
+        mount: abduction joint on the trunk, from the trunk's reference point [m].
+        hip_offset: abduction axis to hip axis [m].
+        femur_length, tibia_length: pivot to pivot, and knee to centre of the foot ball [m].
+        femur_angle: reference pose, femur back of vertical [rad].
+        tibia_angle: reference pose, tibia forward of the femur [rad].
+        hip, femur, tibia: mass properties of the three links, in frames at their joints.
+    """
+
+    name: str
+    mount: Vector3
+    hip_offset: Vector3
+    femur_length: float
+    tibia_length: float
+    femur_angle: float
+    tibia_angle: float
+    hip: Body
+    femur: Body
+    tibia: Body
+
+    @property
+    def side(self) -> float:
+        """-1 for a leg on the right, +1 on the left or in the middle."""
+        return -1.0 if self.mount[1] < 0.0 else 1.0
+
+    def outward(self, vector: Vector3) -> Vector3:
+        """The vector in axes parallel to the trunk's, given one with y pointing outward [m]."""
+        return (vector[0], self.side * vector[1], vector[2])
+
+    def mass_properties(self, link: Body) -> MassProperties:
+        """Mass properties of one of the links, on the side this leg is on."""
+        return MassProperties(link.mass, np.array(self.outward(link.com)), link.inertia())
+
+    @property
+    def mass(self) -> float:
+        """Mass of the three links [kg]."""
+        return self.hip.mass + self.femur.mass + self.tibia.mass
+
+
+@dataclass(frozen=True)
+class Servo:
+    """A geared position servo.
+
+    Args:
+        stiffness: torque per position error [N m/rad].
+        damping: torque per joint speed [N m s/rad].
+        stall_torque: largest torque [N m].
+        no_load_speed: speed at which no driving torque is left [rad/s].
+        reflected_inertia: rotor inertia times the gear ratio squared [kg m^2].
+        latency: age of a command when the servo starts to follow it [s].
+    """
+
+    stiffness: float
+    damping: float
+    stall_torque: float
+    no_load_speed: float
+    reflected_inertia: float
+    latency: float = 0.0
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Rubber ball against hard ground.
+
+    Args:
+        foot_radius: radius of the foot ball [m].
+        stiffness: normal force per penetration [N/m].
+        damping: normal force per speed of penetration, once the foot has sunk in by
+            ``damping_depth`` [N s/m].
+        damping_depth: penetration over which damping sets in [m].
+        friction: Coulomb coefficient [1].
+        friction_speed: below this sliding speed friction is proportional to it [m/s].
+    """
+
+    foot_radius: float
+    stiffness: float
+    damping: float
+    damping_depth: float
+    friction: float
+    friction_speed: float
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """What separates the load on a foot from the load the controller sees.
+
+    Args:
+        component: ``"normal"`` for the force along the normal of the ground, ``"norm"`` for the
+            length of the whole force.
+        delay: age of the load when it arrives [s].
+        time_constant: of the first-order low-pass [s]; 0 for none.
+        noise: standard deviation, in halves of the robot's weight [1].
+    """
+
+    delay: float
+    time_constant: float
+    noise: float
+    component: str = "normal"
+
+
+@dataclass(frozen=True)
+class RobotDescription:
+    """A robot as data, independent of any engine."""
+
+    name: str
+    trunk: Trunk
+    legs: tuple[Leg, ...]
+    servo: Servo
+    contact: Contact
+    sensor: Sensor
+
+    @property
+    def mass(self) -> float:
+        """Total mass [kg]."""
+        return self.trunk.body.mass + sum(leg.mass for leg in self.legs)
+
+    @property
+    def weight(self) -> float:
+        """Weight on earth [N]."""
+        return self.mass * GRAVITY
