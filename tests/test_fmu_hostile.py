@@ -1,0 +1,412 @@
+"""Wrong calls, wrong pointers, wrong values: fmi2Error with a message, never a crash."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import random
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from raw_fmu import DISCARD, ERROR, OK, PROTOTYPES, TS, WARNING, Instance, Library
+from slave import SCALARS
+
+from apnc_core.schema import Causality, Type
+
+STATES = ("instantiated", "initialization", "stepping", "terminated")
+REAL = (ctypes.c_uint * 1)(SCALARS["b1"].value_reference)
+INTEGER = (ctypes.c_uint * 1)(SCALARS["kappa_hold"].value_reference)
+BOOLEAN = (ctypes.c_uint * 1)(SCALARS["reset"].value_reference)
+FINE = (ctypes.c_double * 1)(0.1)
+WHOLE = (ctypes.c_int * 1)(1)
+ROOM = ctypes.create_string_buffer(8)
+
+
+def fmu_in(library: Library, state: str) -> Instance:
+    fmu = Instance(library)
+    if state == "instantiated":
+        return fmu
+    assert fmu("fmi2SetupExperiment", 0, 0.0, 0.0, 0, 0.0) == OK
+    assert fmu("fmi2EnterInitializationMode") == OK
+    if state == "initialization":
+        return fmu
+    assert fmu("fmi2ExitInitializationMode") == OK
+    if state == "terminated":
+        assert fmu("fmi2Terminate") == OK
+    return fmu
+
+
+# Arguments that are right, and the states the standard allows the call in (FMI 2.0, 4.2.4).
+ANY = set(STATES)
+READ = {"initialization", "stepping", "terminated"}
+WRITE = {"instantiated", "initialization", "stepping"}
+CALLS: dict[str, tuple[tuple[Any, ...], set[str]]] = {
+    "fmi2SetDebugLogging": ((1, 0, None), ANY),
+    "fmi2SetupExperiment": ((0, 0.0, 0.0, 0, 0.0), {"instantiated"}),
+    "fmi2EnterInitializationMode": ((), {"instantiated"}),
+    "fmi2ExitInitializationMode": ((), {"initialization"}),
+    "fmi2Terminate": ((), {"stepping"}),
+    "fmi2Reset": ((), ANY),
+    "fmi2GetReal": ((REAL, 1, ROOM), READ),
+    "fmi2GetInteger": ((INTEGER, 1, ROOM), READ),
+    "fmi2GetBoolean": ((BOOLEAN, 1, ROOM), READ),
+    "fmi2GetString": ((None, 0, None), READ),
+    "fmi2SetReal": ((REAL, 1, FINE), WRITE),
+    "fmi2SetInteger": ((INTEGER, 1, WHOLE), WRITE),
+    "fmi2SetBoolean": ((BOOLEAN, 1, WHOLE), WRITE),
+    "fmi2SetString": ((None, 0, None), WRITE),
+    "fmi2DoStep": ((0.0, TS, 1), {"stepping"}),
+    "fmi2CancelStep": ((), set()),  # steps are never pending
+    "fmi2GetDirectionalDerivative": ((None, 0, None, 0, None, None), set()),  # not offered
+    "fmi2SetRealInputDerivatives": ((REAL, 1, WHOLE, FINE), set()),  # not offered
+    "fmi2GetRealOutputDerivatives": ((REAL, 1, WHOLE, ROOM), set()),  # not offered
+}
+# What has an answer though no step is ever pending; the others are discarded.
+QUESTIONS = {
+    "fmi2GetStatus": {},
+    "fmi2GetRealStatus": {2: OK},  # fmi2LastSuccessfulTime
+    "fmi2GetIntegerStatus": {},
+    "fmi2GetBooleanStatus": {3: OK},  # fmi2Terminated
+    "fmi2GetStringStatus": {},
+}
+STATE_CALLS = {name for name in PROTOTYPES if "FMUstate" in name}
+
+
+def test_the_tables_cover_every_function() -> None:
+    assert set(CALLS) | set(QUESTIONS) | STATE_CALLS == set(PROTOTYPES)
+    # the rest of the 34: version, platform, instantiate, free
+    assert len(PROTOTYPES) == 34 - 4
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("function", CALLS)
+def test_calls_are_taken_where_the_standard_allows_them_only(
+    library: Library, function: str, state: str
+) -> None:
+    fmu = fmu_in(library, state)
+    arguments, allowed = CALLS[function]
+    status = fmu(function, *arguments)
+    if state in allowed:
+        assert status == OK and fmu.messages == []
+    else:
+        assert status == ERROR
+        assert len(fmu.messages) == 1 and fmu.messages[0].startswith(function)
+        # and it goes on as if nothing had happened
+        assert fmu("fmi2Reset") == OK
+        fmu.start()
+        assert fmu.step(0.0) == OK
+    fmu.free()
+
+
+@pytest.mark.parametrize("kind", range(-1, 6))
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("function", QUESTIONS)
+def test_status_questions(library: Library, function: str, state: str, kind: int) -> None:
+    fmu = fmu_in(library, state)
+    status = fmu(function, kind, ROOM)
+    if state in ("stepping", "terminated"):
+        assert status == QUESTIONS[function].get(kind, DISCARD)
+        assert fmu(function, kind, None) == ERROR
+    else:
+        assert status == ERROR
+    assert all(message.startswith(function) for message in fmu.messages)
+    fmu.free()
+
+
+def test_last_successful_time_is_the_end_of_the_last_step(library: Library) -> None:
+    fmu = Instance(library)
+    fmu.start(2.0)
+    time = ctypes.c_double()
+    assert fmu("fmi2GetRealStatus", 2, ctypes.byref(time)) == OK and time.value == 2.0
+    fmu.step(2.0, 0.5)
+    assert fmu("fmi2GetRealStatus", 2, ctypes.byref(time)) == OK and time.value == 2.5
+    assert fmu.step(9.0) == ERROR
+    assert fmu("fmi2GetRealStatus", 2, ctypes.byref(time)) == OK and time.value == 2.5
+    fmu.free()
+
+
+@pytest.mark.parametrize("function", PROTOTYPES)
+def test_no_component(library: Library, function: str) -> None:
+    fmu = Instance(library)
+    fmu.free()
+    zeros = [0.0 if kind is ctypes.c_double else 0 for kind in PROTOTYPES[function][1:]]
+    arguments = [
+        None if kind is ctypes.c_void_p else zero
+        for kind, zero in zip(PROTOTYPES[function][1:], zeros, strict=True)
+    ]
+    assert fmu(function, *arguments) == ERROR
+    library.calls.fmi2FreeInstance(None)
+
+
+@pytest.mark.parametrize(
+    ("function", "arguments"),
+    [
+        ("fmi2SetDebugLogging", (1, 2, None)),
+        *[(f"fmi2{do}{kind}", (None, 1, ROOM)) for do in ("Get", "Set")
+          for kind in ("Real", "Integer", "Boolean", "String")],
+        *[(f"fmi2{do}{kind}", (REAL, 1, None)) for do in ("Get", "Set")
+          for kind in ("Real", "Integer", "Boolean", "String")],
+        ("fmi2GetFMUstate", (None,)),
+        ("fmi2SetFMUstate", (None,)),
+        ("fmi2SerializedFMUstateSize", (None, ROOM)),
+        ("fmi2SerializedFMUstateSize", (ROOM, None)),
+        ("fmi2SerializeFMUstate", (None, ROOM, 8)),
+        ("fmi2SerializeFMUstate", (ROOM, None, 8)),
+        ("fmi2SerializeFMUstate", (ROOM, ROOM, 8)),
+        ("fmi2DeSerializeFMUstate", (None, 8, ROOM)),
+        ("fmi2DeSerializeFMUstate", (ROOM, 8, None)),
+        ("fmi2DeSerializeFMUstate", (ROOM, 0, ROOM)),
+    ],
+)  # fmt: skip
+def test_null_pointers_are_refused_by_name(
+    library: Library, function: str, arguments: tuple[Any, ...]
+) -> None:
+    fmu = fmu_in(library, "stepping")
+    assert fmu(function, *arguments) == ERROR
+    assert len(fmu.messages) == 1
+    fmu.free()
+
+
+@pytest.mark.parametrize("name", ["Real", "Integer", "Boolean", "String"])
+def test_no_values_at_all_need_no_pointers(library: Library, name: str) -> None:
+    fmu = fmu_in(library, "stepping")
+    assert fmu(f"fmi2Get{name}", None, 0, None) == OK
+    assert fmu(f"fmi2Set{name}", None, 0, None) == OK
+    fmu.free()
+
+
+def test_freeing_no_state_is_no_error(library: Library) -> None:
+    fmu = fmu_in(library, "stepping")
+    assert fmu("fmi2FreeFMUstate", None) == OK
+    assert fmu("fmi2FreeFMUstate", ctypes.byref(ctypes.c_void_p())) == OK
+    fmu.free()
+
+
+KNOWN = {s.value_reference: s for s in SCALARS.values()}
+
+
+@pytest.mark.parametrize("kind", [Type.real, Type.integer, Type.boolean])
+def test_every_value_reference_is_known_or_refused_by_number(library: Library, kind: Type) -> None:
+    fmu = fmu_in(library, "stepping")
+    rng = random.Random(0)
+    unknown = [2**32 - 1, 2**31, 2**31 - 1] + [rng.randrange(2**32) for _ in range(2000)]
+    for reference in [*range(6000), *unknown]:
+        fmu.log.clear()
+        status = fmu(f"fmi2Get{kind}", (ctypes.c_uint * 1)(reference), 1, ROOM)
+        known = KNOWN.get(reference)
+        if known is None:
+            assert status == ERROR and str(reference) in fmu.messages[0]
+        elif known.variable.type is kind or (
+            known.variable.type is Type.enumeration and kind is Type.integer
+        ):
+            assert status == OK
+        else:
+            assert status == ERROR and known.name in fmu.messages[0]
+    fmu.free()
+
+
+def test_duplicate_references_the_last_value_counts(library: Library) -> None:
+    fmu = fmu_in(library, "stepping")
+    b1 = REAL[0]
+    assert fmu.set([b1, b1, b1], [0.1, 0.2, 0.3]) == OK
+    assert fmu.get([b1, b1]) == [0.3, 0.3]
+    fmu.free()
+
+
+@pytest.mark.parametrize(
+    "name", [s.name for s in SCALARS.values() if s.variable.causality is Causality.output]
+)
+def test_outputs_cannot_be_set(library: Library, name: str) -> None:
+    scalar = SCALARS[name]
+    kind = str(scalar.variable.type)
+    for state in ("instantiated", "initialization", "stepping"):
+        fmu = fmu_in(library, state)
+        assert fmu.set([scalar.value_reference], [0], kind) == ERROR
+        assert name in fmu.messages[0]
+        fmu.free()
+
+
+ODD = [math.nan, math.inf, -math.inf, 5e-324, -5e-324, -0.0, 1.7e308, -1.7e308, 1e-310]
+
+
+def finite(fmu: Instance, names: tuple[str, ...] | None = None) -> bool:
+    references = [
+        reference
+        for reference, s in KNOWN.items()
+        if s.variable.type is Type.real
+        and s.variable.causality in (Causality.output, Causality.local)
+        and (names is None or s.variable.name in names)
+    ]
+    return all(map(math.isfinite, fmu.get(references)))
+
+
+@pytest.mark.parametrize("method", range(1, 5))
+@pytest.mark.parametrize("name", ["MI", "turn", "leg[1].grf", "leg[4].grf"])
+@pytest.mark.parametrize("value", [*ODD, 1e150])
+def test_odd_inputs_never_spoil_the_outputs(
+    library: Library, name: str, value: float, method: int
+) -> None:
+    fmu = fmu_in(library, "initialization")
+    assert fmu.set([SCALARS["method"].value_reference], [method], "Integer") == OK
+    assert fmu("fmi2ExitInitializationMode") == OK
+    # the feedback of a load beyond 1e150 N is too large for a number; the commands never are
+    shown = None if value != 1.7e308 else ("theta_hip", "theta_knee", "o1", "o2")
+    for n in range(200):
+        assert fmu.set([SCALARS[name].value_reference], [value if n < 20 else 0.05]) == OK
+        assert fmu.step(n * TS) in (OK, WARNING)
+        assert finite(fmu, shown), n
+    fmu.free()
+
+
+@pytest.mark.parametrize("value", ODD)
+@pytest.mark.parametrize("tunable", [True, False])
+def test_odd_parameters_are_refused_or_in_range(
+    library: Library, value: float, tunable: bool
+) -> None:
+    for reference, scalar in KNOWN.items():
+        v = scalar.variable
+        if v.causality is not Causality.parameter or v.type is not Type.real:
+            continue
+        assert v.min is not None and v.max is not None
+        inside = v.min <= value <= v.max
+        fmu = fmu_in(library, "stepping" if tunable else "initialization")
+        status = fmu.set([reference], [value])
+        if not tunable:
+            assert status == OK
+            status = fmu("fmi2ExitInitializationMode")
+        elif v.variability == "fixed":
+            inside = False
+        assert (status == OK) == inside, scalar.name
+        assert inside or scalar.name in fmu.messages[0]
+        fmu.free()
+
+
+@pytest.mark.parametrize(
+    ("t", "h"),
+    [
+        (math.nan, TS), (0.0, math.nan), (math.inf, TS), (0.0, math.inf), (-math.inf, TS),
+        (0.0, -TS), (0.0, -5e-324), (0.0, 1e308), (1.7e308, 1.7e308), (1.0, TS), (-1.0, TS),
+        (0.0, 1e9),
+    ],
+)  # fmt: skip
+def test_impossible_steps_are_refused_and_change_nothing(
+    library: Library, t: float, h: float
+) -> None:
+    fmu = fmu_in(library, "stepping")
+    assert fmu.step(t, h) == ERROR
+    assert len(fmu.messages) == 1 and "step" in fmu.messages[0]
+    tick = [SCALARS["tick"].value_reference]
+    assert fmu.get(tick, "Integer") == [0]
+    assert fmu.step(0.0, 5e-324) == OK
+    assert fmu.step(0.0) == OK
+    assert fmu.get(tick, "Integer") == [1]
+    fmu.free()
+
+
+@pytest.mark.parametrize("start", [math.nan, math.inf, -math.inf])
+def test_start_time_must_be_finite(library: Library, start: float) -> None:
+    fmu = Instance(library)
+    assert fmu("fmi2SetupExperiment", 0, 0.0, start, 0, 0.0) == ERROR
+    assert "start time" in fmu.messages[0]
+    fmu.free()
+
+
+@pytest.mark.parametrize("stop", [-1.0, math.nan, -math.inf])
+def test_stop_time_before_the_start_is_refused(library: Library, stop: float) -> None:
+    fmu = Instance(library)
+    assert fmu("fmi2SetupExperiment", 0, 0.0, 0.0, 1, stop) == ERROR
+    assert "stop time" in fmu.messages[0]
+    fmu.free()
+
+
+@pytest.mark.parametrize(
+    ("changes", "why"),
+    [
+        ({"guid": "{00000000-0000-0000-0000-000000000000}"}, "guid"),
+        ({"guid": None}, "guid"),
+        ({"guid": " "}, "guid"),
+        ({"kind": 0}, "co-simulation"),
+        ({"kind": 7}, "co-simulation"),
+        ({"name": None}, "name"),
+        ({"name": b""}, "name"),
+    ],
+)
+def test_instances_that_cannot_be_made(library: Library, changes: dict[str, Any], why: str) -> None:
+    fmu = Instance(library, **changes)
+    assert fmu.component is None
+    assert len(fmu.log) == 1 and fmu.log[0][:2] == (ERROR, "logStatusError")
+    assert why in fmu.messages[0]
+    # nor does it crash when nobody listens
+    assert Instance(library, **changes, logger=False).component is None
+    assert Instance(library, **changes, callbacks=False).component is None
+
+
+@pytest.fixture
+def blob(library: Library) -> Iterator[bytes]:
+    fmu = fmu_in(library, "stepping")
+    for n in range(100):
+        fmu.step(n * TS)
+    yield serialized(fmu)
+    fmu.free()
+
+
+def serialized(fmu: Instance) -> bytes:
+    state, size = ctypes.c_void_p(), ctypes.c_size_t()
+    assert fmu("fmi2GetFMUstate", ctypes.byref(state)) == OK
+    assert fmu("fmi2SerializedFMUstateSize", state, ctypes.byref(size)) == OK
+    buffer = ctypes.create_string_buffer(size.value)
+    assert fmu("fmi2SerializeFMUstate", state, buffer, size.value - 1) == ERROR
+    fmu.log.clear()
+    assert fmu("fmi2SerializeFMUstate", state, buffer, size.value) == OK
+    assert fmu("fmi2FreeFMUstate", ctypes.byref(state)) == OK
+    return buffer.raw
+
+
+def read_back(fmu: Instance, content: bytes) -> int:
+    """Status of reading a blob; what it gives is put in place and stepped, then freed."""
+    state = ctypes.c_void_p()
+    status = fmu("fmi2DeSerializeFMUstate", content, len(content), ctypes.byref(state))
+    assert (status == OK) == (state.value is not None)
+    if status == OK:
+        assert fmu("fmi2SetFMUstate", state) == OK
+        assert fmu("fmi2FreeFMUstate", ctypes.byref(state)) == OK
+    return status
+
+
+@pytest.mark.parametrize(
+    ("damage", "why"),
+    [
+        (lambda b: b"", "too short"),
+        (lambda b: b[:8], "too short"),
+        (lambda b: b[:-1], "bytes"),
+        (lambda b: b + b"\0", "bytes"),
+        (lambda b: b[:200], "bytes"),
+        (lambda b: b"PK\3\4" + b[4:], "not a saved state"),
+        (lambda b: bytes(len(b)), "not a saved state"),
+        (lambda b: b[:8] + b"\xff" + b[9:], "version"),
+        (lambda b: b[:12] + b"\x06" + b[13:], "legs"),
+        (lambda b: b[:-1] + bytes([b[-1] ^ 1]), "damaged"),
+    ],
+)
+def test_foreign_and_truncated_blobs(
+    library: Library, blob: bytes, damage: Callable[[bytes], bytes], why: str
+) -> None:
+    fmu = fmu_in(library, "stepping")
+    assert read_back(fmu, damage(blob)) == ERROR
+    assert len(fmu.messages) == 1 and why in fmu.messages[0]
+    assert fmu.step(0.0) == OK
+    assert read_back(fmu, blob) == OK
+    fmu.free()
+
+
+def test_any_flipped_bit_is_noticed(library: Library, blob: bytes) -> None:
+    fmu = fmu_in(library, "stepping")
+    rng = random.Random(1)
+    header = range(8 * 40)
+    places = [*header, *(rng.randrange(8 * len(blob)) for _ in range(3000))]
+    for place in places:
+        spoiled = bytearray(blob)
+        spoiled[place // 8] ^= 1 << place % 8
+        assert read_back(fmu, bytes(spoiled)) == ERROR, place
+    fmu.free()
