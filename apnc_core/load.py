@@ -22,4 +22,4 @@ def normalise(grf: Array, robot_weight: float) -> tuple[Array, NDArray[np.bool_]
     the weight gives more than 1, and is not clipped.
     """
     fault = ~(np.isfinite(grf) & (grf >= 0.0))
-    return np.where(fault, 0.0, grf) / (0.5 * robot_weight), fault
+    return np.where(fault, 0.0, grf) * (2.0 / robot_weight), fault

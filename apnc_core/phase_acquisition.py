@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from apnc_core.elementary import wrap
+from apnc_core.elementary import angle_of, wrap_far
 from apnc_core.interface import Array, Parameters
 
 
@@ -38,7 +38,7 @@ class VectorMeasure:
         im = o2[0] * o1[1:] - o1[0] * o2[1:]
         self.re = self.re + p.phase_filter * (re - self.re)
         self.im = self.im + p.phase_filter * (im - self.im)
-        return np.array([math.atan2(y, x) for y, x in zip(self.im, self.re, strict=True)])
+        return np.array([angle_of(y, x) for y, x in zip(self.im, self.re, strict=True)])
 
 
 @dataclass
@@ -73,4 +73,4 @@ class PeakMeasure:
         self.now += 1.0
         known = (self.period > 0.0) & (self.t_peak[1:] >= 0.0)
         lag = np.where(known, (self.t_peak[0] - self.t_peak[1:]) / (self.period or 1.0), 0.0)
-        return wrap(2.0 * math.pi * lag)
+        return wrap_far(2.0 * math.pi * lag)

@@ -18,11 +18,13 @@ class Stability:
 
     n_legs: int
     N: int
+    angle_before: Array = field(init=False)
     unwrapped: Array = field(init=False)
     window: Array = field(init=False)
 
     def __post_init__(self) -> None:
         """Start as if the phases had always been zero."""
+        self.angle_before = np.zeros(self.n_legs - 1)
         self.unwrapped = np.zeros(self.n_legs - 1)
         self.window = np.zeros((self.N, self.n_legs - 1))
 
@@ -32,7 +34,8 @@ class Stability:
         d(n) = |Phi(n) - mean(Phi(n-1) ... Phi(n-N))| (Eq. 13-15). Pitfall: all phases start at
         zero, so d is zero from the first tick, long before there is a gait.
         """
-        self.unwrapped = self.unwrapped + wrap(angle - self.unwrapped)
+        self.unwrapped = self.unwrapped + wrap(angle - self.angle_before)
+        self.angle_before = angle
         deviation = self.unwrapped - self.window.mean(axis=0)
         self.window = np.vstack([self.window[1:], self.unwrapped])
         return math.sqrt(float(deviation @ deviation))

@@ -16,6 +16,7 @@ from apnc_core import (
     phase_reset,
 )
 from apnc_core.controller import Controller
+from apnc_core.elementary import angle_of
 from apnc_core.enumerations import CouplingSign, KappaRule, Method
 from apnc_core.interface import Inputs, Parameters
 from apnc_core.phase_acquisition import PeakMeasure, VectorMeasure
@@ -265,3 +266,11 @@ def test_reset_input_restarts_the_circuits_and_keeps_the_memory() -> None:
 def test_stored_relations_must_fit_the_legs() -> None:
     with pytest.raises(ValueError, match="phi_stored has 2 values; 4 legs take 3 or none"):
         Controller(Parameters(phi_stored=(1.0, 2.0)))
+
+
+def test_angle_of_a_vector_is_atan2() -> None:
+    rng = np.random.default_rng(5)
+    for y, x in rng.normal(size=(2000, 2)):
+        assert angle_of(y, x) == pytest.approx(math.atan2(y, x), abs=1e-15)
+    for y, x in ((0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):
+        assert angle_of(y, x) == math.atan2(y, x)

@@ -52,7 +52,7 @@ def test_comparison_exercises_every_output(fmu4: Path) -> None:
 
 
 MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
-    "load": ("load.h", "0.5 * robot_weight", "0.5001 * robot_weight", {}),
+    "load": ("load.h", "2.0 / robot_weight", "2.0001 / robot_weight", {}),
     "oscillator": ("oscillator.h", "w12 * o2", "1.0001 * w12 * o2", {}),
     "motor neurons": ("motor_neurons.h", "scale * a * o + b", "scale * a * o", {}),
     "sensory feedback": ("sensory_feedback.h", "F * sin_o2", "F * cos_o1", {}),
@@ -60,7 +60,7 @@ MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
     "forward model": ("forward_model.h", "theta_hip <= theta", "theta_hip > theta", {}),
     "phase acquisition": ("phase_acquisition.h", "o1[0] * o2[r + 1];\n        s", "0.0;\n s", {}),
     "peak measure": ("phase_acquisition.h", "/ s->period", "/ (s->period + 1.0)", PEAKS),
-    "phase estimation": ("phase_estimation.h", "s->sum[r] / N", "s->sum[r] / (N + 1)", {}),
+    "phase estimation": ("phase_estimation.h", "1.0 / N", "1.0 / (N + 1)", {}),
     "switch": ("phase_estimation.h", "s->calm >= p", "s->calm > p", COUPLED),
     "neural coupling": ("neural_coupling.h", "gain * (", "1.0001 * gain * (", COUPLED),
     "tegotae": ("tegotae.h", "p->gamma_tegotae", "0.9 * p->gamma_tegotae", CASES["tegotae"]),

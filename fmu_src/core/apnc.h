@@ -32,6 +32,7 @@ typedef struct {
 
 /* Estimation of the phase relations, Eq. 13-16. */
 typedef struct {
+    double angle_before[APNC_RELATIONS];            /* [rad] angles at n - 1 */
     double unwrapped[APNC_RELATIONS];               /* [rad] relative phases at n */
     double window[APNC_WINDOW_MAX][APNC_RELATIONS]; /* [rad] relative phases at n - 1 ... n - N */
     double sum[APNC_RELATIONS];                     /* [rad] over the window */
@@ -43,6 +44,8 @@ typedef struct {
 /* What the neural couplings hold. */
 typedef struct {
     double phi[APNC_RELATIONS]; /* [rad] stored relations phi_1k */
+    double sin_phi[APNC_LEGS];  /* [1] of phi_11 = 0, phi_12, phi_13, ... */
+    double cos_phi[APNC_LEGS];  /* [1] */
     int32_t on;                 /* there are stored relations and kappa is 1 */
     int32_t unused;
 } apnc_memory;

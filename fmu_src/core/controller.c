@@ -51,6 +51,12 @@ static double limited(double value, double low, double high, double held) {
     return value < low ? low : value > high ? high : value;
 }
 
+static void store(apnc_memory *memory, const double *phi) {
+    memcpy(memory->phi, phi, sizeof memory->phi);
+    apnc_relation(phi, memory->sin_phi, memory->cos_phi);
+    memory->on = 1;
+}
+
 static int couplings_on(const apnc_parameters *p, const apnc_state *state) {
     return p->method == APNC_METHOD_APNC && state->memory.on;
 }
@@ -83,8 +89,7 @@ void apnc_init(const apnc_parameters *p, apnc_state *state, apnc_outputs *out) {
     state->MI = APNC_MI_START;
     state->turn = APNC_TURN_START;
     apnc_reset(p, state);
-    state->memory.on = p->stored;
-    if (p->stored) memcpy(state->memory.phi, p->phi_stored, sizeof state->memory.phi);
+    if (p->stored) store(&state->memory, p->phi_stored);
     observe_rest(p, state, out);
 }
 
@@ -108,30 +113,55 @@ static void communicate(const apnc_parameters *p, apnc_state *state, double *ang
 
     const int settled = apnc_settled(&state->estimation, p, out->d);
     if (p->method == APNC_METHOD_APNC) {
-        if (settled && !memory->on) {
-            memcpy(memory->phi, out->phi, sizeof memory->phi);
-            memory->on = 1;
-        }
+        if (settled && !memory->on) store(memory, out->phi);
         if (p->kappa_rule == APNC_KAPPA_RULE_PRINTED) memory->on = settled;
     }
     memcpy(out->phi_memory, memory->phi, sizeof out->phi_memory);
     out->kappa = couplings_on(p, state) ? 1.0 : 0.0;
 }
 
-static void couple(const apnc_parameters *p, const apnc_state *state, const double *angle,
-                   const double *cos_o1, const double *sin_o2, apnc_outputs *out) {
-    const apnc_circuits *c = &state->circuits;
-    const double *phi = p->phi_frozen ? state->memory.phi : angle;
-    const double gain = p->coupling_sign == APNC_COUPLING_SIGN_PRINTED ? p->xi : -p->xi;
-    double sin_o1[APNC_LEGS], cos_o2[APNC_LEGS], sin_phi[APNC_LEGS], cos_phi[APNC_LEGS];
+/* Sines and cosines of the neuron outputs: of those that the feedback takes, or of all. */
+typedef struct {
+    double sin_o1[APNC_LEGS], cos_o1[APNC_LEGS], sin_o2[APNC_LEGS], cos_o2[APNC_LEGS];
+} trigonometry;
+
+static void evaluate(const apnc_circuits *c, int coupled, trigonometry *t) {
     for (int leg = 0; leg < APNC_LEGS; leg++) {
-        sin_o1[leg] = sin(c->o1[leg]);
-        cos_o2[leg] = cos(c->o2[leg]);
-        sin_phi[leg] = leg ? sin(phi[leg - 1]) : 0.0;
-        cos_phi[leg] = leg ? cos(phi[leg - 1]) : 1.0;
+        const double o1 = c->o1[leg], o2 = c->o2[leg];
+        if (coupled) { /* side by side, so that the compiler takes sine and cosine at once */
+            t->sin_o1[leg] = sin(o1);
+            t->cos_o1[leg] = cos(o1);
+            t->sin_o2[leg] = sin(o2);
+            t->cos_o2[leg] = cos(o2);
+        } else {
+            t->cos_o1[leg] = cos(o1);
+            t->sin_o2[leg] = sin(o2);
+        }
     }
-    apnc_couple(gain, sin_o1, cos_o1, sin_phi, cos_phi, out->g1);
-    apnc_couple(gain, sin_o2, cos_o2, sin_phi, cos_phi, out->g2);
+}
+
+static void feed_back(const apnc_parameters *p, const apnc_circuits *c, const double *F,
+                      const trigonometry *t, apnc_outputs *out) {
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        out->gamma[leg] = feedback_gain(p, c->K_f[leg], c->K_s[leg]);
+        apnc_feedback(out->gamma[leg], F[leg], t->cos_o1[leg], t->sin_o2[leg], &out->f1[leg],
+                      &out->f2[leg]);
+        out->g1[leg] = out->g2[leg] = 0.0;
+    }
+}
+
+static void couple(const apnc_parameters *p, const apnc_memory *memory, const double *angle,
+                   const trigonometry *t, apnc_outputs *out) {
+    const double *sin_phi = memory->sin_phi, *cos_phi = memory->cos_phi;
+    const double gain = p->coupling_sign == APNC_COUPLING_SIGN_PRINTED ? p->xi : -p->xi;
+    double sin_now[APNC_LEGS], cos_now[APNC_LEGS];
+    if (!p->phi_frozen) {
+        apnc_relation(angle, sin_now, cos_now);
+        sin_phi = sin_now;
+        cos_phi = cos_now;
+    }
+    apnc_couple(gain, t->sin_o1, t->cos_o1, sin_phi, cos_phi, out->g1);
+    apnc_couple(gain, t->sin_o2, t->cos_o2, sin_phi, cos_phi, out->g2);
 }
 
 /* State at n + 1. F: loads over half the weight at n. */
@@ -166,31 +196,26 @@ static void advance(const apnc_parameters *p, apnc_state *state, const double *F
 void apnc_tick(const apnc_parameters *p, apnc_state *state, const apnc_inputs *in,
                apnc_outputs *out) {
     double F[APNC_LEGS], angle[APNC_RELATIONS];
-    double cos_o1[APNC_LEGS], sin_o2[APNC_LEGS];
+    trigonometry t;
     int32_t fault[APNC_LEGS];
     const apnc_circuits *c = &state->circuits;
 
     state->MI = limited(in->MI, APNC_MI_MIN, APNC_MI_MAX, state->MI);
     state->turn = limited(in->turn, APNC_TURN_MIN, APNC_TURN_MAX, state->turn);
     state->ticks++;
+    const double scale = apnc_load_scale(p->robot_weight);
     for (int leg = 0; leg < APNC_LEGS; leg++)
-        F[leg] = apnc_load(in->grf[leg], p->robot_weight, &fault[leg]);
+        F[leg] = apnc_load(in->grf[leg], scale, &fault[leg]);
 
     if (in->reset || (p->MI_zero_resets && state->MI == 0.0)) {
         apnc_reset(p, state);
         observe_rest(p, state, out);
     } else {
         observe(p, state, out);
-        for (int leg = 0; leg < APNC_LEGS; leg++) {
-            out->gamma[leg] = feedback_gain(p, c->K_f[leg], c->K_s[leg]);
-            cos_o1[leg] = cos(c->o1[leg]);
-            sin_o2[leg] = sin(c->o2[leg]);
-            apnc_feedback(out->gamma[leg], F[leg], cos_o1[leg], sin_o2[leg], &out->f1[leg],
-                          &out->f2[leg]);
-            out->g1[leg] = out->g2[leg] = 0.0;
-        }
         communicate(p, state, angle, out);
-        if (out->kappa > 0.0) couple(p, state, angle, cos_o1, sin_o2, out);
+        evaluate(c, out->kappa > 0.0, &t);
+        feed_back(p, c, F, &t, out);
+        if (out->kappa > 0.0) couple(p, &state->memory, angle, &t, out);
         advance(p, state, F, out);
     }
     memcpy(out->fault, fault, sizeof fault);

@@ -9,6 +9,16 @@
 
 #include <math.h>
 
+/* Sines and cosines of the phases phi_11 = 0, phi_12, phi_13, ... [rad] of all legs. */
+static inline void apnc_relation(const double *phi, double *sin_phi, double *cos_phi) {
+    sin_phi[0] = 0.0;
+    cos_phi[0] = 1.0;
+    for (int leg = 1; leg < APNC_LEGS; leg++) {
+        sin_phi[leg] = sin(phi[leg - 1]);
+        cos_phi[leg] = cos(phi[leg - 1]);
+    }
+}
+
 /* g of one neuron of every leg times gain, from the sines and cosines of its outputs o. */
 static inline void apnc_couple(double gain, const double *sin_o, const double *cos_o,
                                const double *sin_phi, const double *cos_phi, double *g) {

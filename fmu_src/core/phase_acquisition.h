@@ -26,7 +26,7 @@ static inline void apnc_acquire_vector(apnc_acquisition *s, double phase_filter,
         const double im = o2[0] * o1[r + 1] - o1[0] * o2[r + 1];
         s->re[r] += phase_filter * (re - s->re[r]);
         s->im[r] += phase_filter * (im - s->im[r]);
-        angle[r] = atan2(s->im[r], s->re[r]);
+        angle[r] = apnc_angle(s->im[r], s->re[r]);
     }
 }
 
@@ -45,7 +45,7 @@ static inline void apnc_acquire_peak(apnc_acquisition *s, const double *o1, doub
     for (int r = 0; r < APNC_RELATIONS; r++) {
         const int known = s->period > 0.0 && s->t_peak[r + 1] >= 0.0;
         const double lag = known ? (s->t_peak[0] - s->t_peak[r + 1]) / s->period : 0.0;
-        angle[r] = apnc_wrap(2.0 * APNC_PI * lag, -APNC_PI);
+        angle[r] = apnc_wrap_far(2.0 * APNC_PI * lag, -APNC_PI);
     }
 }
 

@@ -11,11 +11,13 @@ static inline void apnc_estimation_start(apnc_estimation *s) { memset(s, 0, size
 
 /* d(n) = |Phi(n) - mean(Phi(n-1) ... Phi(n-N))| (Eq. 13-15). */
 static inline double apnc_distance(apnc_estimation *s, int N, const double *angle) {
+    const double share = 1.0 / N;
     double squares = 0.0;
     double *row = s->window[s->oldest];
     for (int r = 0; r < APNC_RELATIONS; r++) {
-        s->unwrapped[r] += apnc_wrap(angle[r] - s->unwrapped[r], -APNC_PI);
-        const double deviation = s->unwrapped[r] - s->sum[r] / N;
+        s->unwrapped[r] += apnc_wrap(angle[r] - s->angle_before[r], -APNC_PI);
+        s->angle_before[r] = angle[r];
+        const double deviation = s->unwrapped[r] - s->sum[r] * share;
         squares += deviation * deviation;
         s->sum[r] += s->unwrapped[r] - row[r];
         row[r] = s->unwrapped[r];

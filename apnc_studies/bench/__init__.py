@@ -1,0 +1,1 @@
+"""What a tick costs, measured side by side in one run."""

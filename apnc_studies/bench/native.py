@@ -1,0 +1,87 @@
+"""The timed C loops, compiled for one number of legs and loaded into this process."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.resources
+import shutil
+import tempfile
+import time
+from pathlib import Path
+from types import TracebackType
+from typing import Final
+
+from build_fmu import sources
+from build_fmu.compile import compile_library
+from build_fmu.options import PLATFORMS, BuildOptions, host_platform
+
+_CORE_FILES: Final = ("controller.c", "apnc_variables.c", "native.c")
+
+
+class NativeLoops:
+    """Loops over the core, the arithmetic floor and the ``fmi2DoStep`` of any loaded FMU.
+
+    Args:
+        legs: number of legs the core is compiled for.
+        coupled: whether the neural couplings are on, the most expensive case.
+    """
+
+    def __init__(self, legs: int, coupled: bool = True) -> None:
+        self.coupled = coupled
+        self._folder = Path(tempfile.mkdtemp(prefix="apnc-bench-"))
+        platform = PLATFORMS[host_platform()]
+        files = sources.collect() | {
+            "apnc_config.h": sources.config_header(BuildOptions(legs=legs, platforms=()), ""),
+            "native.c": importlib.resources.files(__package__).joinpath("native.c").read_bytes(),
+        }
+        for name, text in files.items():
+            (self._folder / name).write_bytes(text)
+        library = self._folder / f"bench{platform.suffix}"
+        library.write_bytes(compile_library(self._folder, list(_CORE_FILES), platform))
+        self._library = ctypes.CDLL(str(library))
+        self._library.bench_core.restype = ctypes.c_double
+        self._library.bench_floor.restype = ctypes.c_double
+        self._library.bench_steps.argtypes = [
+            *(ctypes.c_void_p, ctypes.c_void_p),
+            *(ctypes.c_double, ctypes.c_double, ctypes.c_int),
+        ]
+        self._library.bench_start(int(coupled))
+
+    def core(self, ticks: int) -> float:
+        """Nanoseconds per tick of the core."""
+        begin = time.perf_counter_ns()
+        self._library.bench_core(ticks)
+        return (time.perf_counter_ns() - begin) / ticks
+
+    def floor(self, ticks: int) -> float:
+        """Nanoseconds per tick's worth of tanh, sin and cos."""
+        begin = time.perf_counter_ns()
+        self._library.bench_floor(ticks, int(self.coupled))
+        return (time.perf_counter_ns() - begin) / ticks
+
+    def steps(self, do_step: object, component: object, t: float, h: float, n: int) -> float:
+        """Nanoseconds per call of an FMU's ``fmi2DoStep``.
+
+        Raises:
+            RuntimeError: a step failed.
+        """
+        address = ctypes.cast(do_step, ctypes.c_void_p)  # type: ignore[arg-type]
+        begin = time.perf_counter_ns()
+        status = self._library.bench_steps(address, component, t, h, n)
+        spent = time.perf_counter_ns() - begin
+        if status > 1:
+            raise RuntimeError(f"fmi2DoStep failed with status {status}")
+        return spent / n
+
+    def __enter__(self) -> NativeLoops:
+        """Use in a with statement."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Remove the compiled files."""
+        shutil.rmtree(self._folder, ignore_errors=True)

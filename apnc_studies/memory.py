@@ -1,0 +1,128 @@
+"""Learned gaits as files: the phase relations that the neural couplings hold."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import json
+import math
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from apnc_core.legs import leg_names
+from apnc_core.variables import row
+
+FORMAT: Final = "apnc-gait"
+VERSION: Final = 1
+
+
+class GaitError(ValueError):
+    """A gait file, or a run, that holds no usable gait, in one line."""
+
+
+@dataclass(frozen=True)
+class Gait:
+    """A stored gait.
+
+    Args:
+        legs: leg names, the reference leg first.
+        phi: relations phi_12, phi_13, ... [rad], one per leg from the second on; positive when
+            that leg leads the first (Eq. 12).
+
+    Raises:
+        GaitError: numbers that do not fit or are out of range.
+    """
+
+    legs: tuple[str, ...]
+    phi: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        """Check that there is a usable relation per leg."""
+        limits = row("phi_stored")
+        assert limits.min is not None and limits.max is not None
+        if len(self.phi) != len(self.legs) - 1:
+            raise GaitError(f"{len(self.phi)} relations do not fit {len(self.legs)} legs")
+        for leg, angle in zip(self.legs[1:], self.phi, strict=True):
+            if not (math.isfinite(angle) and limits.min <= angle <= limits.max):
+                allowed = f"{limits.min:g} ... {limits.max:g} rad"
+                raise GaitError(f"relation of leg {leg} is {angle}; {allowed} is allowed")
+
+    def settings(self) -> dict[str, Any]:
+        """Parameters of the FMU that start it with this gait."""
+        return {"stored": True, "phi_stored": self.phi}
+
+
+def gait_of_run(folder: Path) -> Gait:
+    """The gait stored at the end of a recorded run.
+
+    Args:
+        folder: output folder of ``apnc walk``.
+
+    Raises:
+        GaitError: no run, or a run whose couplings were off at the end.
+    """
+    path = folder / "record.csv"
+    try:
+        with path.open(encoding="utf-8") as file:
+            last = _last_row(file)
+    except OSError as error:
+        raise GaitError(f"{path} cannot be read: {error.strerror}") from None
+    columns = [name for name in last if name.startswith("phi_memory")]
+    if not columns or "kappa" not in last:
+        raise GaitError(f"{path} is not the record of a walk")
+    if float(last["kappa"]) != 1.0:
+        raise GaitError(f"{folder}: no gait was stored in this run (kappa is 0 at its end)")
+    return Gait(leg_names(len(columns) + 1), tuple(float(last[name]) for name in columns))
+
+
+def _last_row(file: Any) -> dict[str, str]:
+    last: dict[str, str] = {}
+    for last in csv.DictReader(file):
+        pass
+    return last
+
+
+def _checksum(content: dict[str, Any]) -> str:
+    text = json.dumps(content, sort_keys=True, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def write_gait(gait: Gait, path: Path) -> None:
+    """Write a gait file.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    content = {"format": FORMAT, "version": VERSION, "unit": "rad", **asdict(gait)}
+    # what the checksum sees is what a reader of the file sees: lists, not tuples
+    content = json.loads(json.dumps(content))
+    text = json.dumps({**content, "sha256": _checksum(content)}, indent=2, allow_nan=False)
+    path.write_text(text + "\n", encoding="utf-8")
+
+
+def read_gait(path: Path) -> Gait:
+    """Read a gait file.
+
+    Raises:
+        GaitError: no file, a damaged or a foreign one.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise GaitError(f"{path} cannot be read: {error.strerror}") from None
+    except ValueError:
+        raise GaitError(f"{path} is not a gait file, or damaged: not JSON") from None
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        raise GaitError(f"{path} is not a gait file")
+    if content.get("version") != VERSION:
+        raise GaitError(f"{path} has version {content.get('version')}; {VERSION} is known")
+    claimed = content.pop("sha256", None)
+    if claimed != _checksum(content):
+        raise GaitError(f"{path} is damaged: its checksum does not fit")
+    try:
+        return Gait(tuple(content["legs"]), tuple(float(x) for x in content["phi"]))
+    except (KeyError, TypeError) as error:
+        raise GaitError(f"{path} is damaged: {error}") from None
+    except GaitError as error:
+        raise GaitError(f"{path}: {error}") from None
