@@ -83,8 +83,9 @@ class Memory:
     def allocate(self, count: int, size: int) -> int:
         self.allocated += 1
         # dirty on purpose: an importer may hand out memory that is not cleared
-        buffer = (ctypes.c_ubyte * (count * size))(*([0xA5] * (count * size)))
+        buffer = ctypes.create_string_buffer(count * size)
         address = ctypes.addressof(buffer)
+        ctypes.memset(address, 0xA5, count * size)
         self.held[address] = buffer
         return address
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import math
 import random
+import struct
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -409,4 +410,31 @@ def test_any_flipped_bit_is_noticed(library: Library, blob: bytes) -> None:
         spoiled = bytearray(blob)
         spoiled[place // 8] ^= 1 << place % 8
         assert read_back(fmu, bytes(spoiled)) == ERROR, place
+    fmu.free()
+
+
+def with_checksum(content: bytearray) -> bytes:
+    """The blob with the checksum of its header made right again (FNV-1a of what follows it)."""
+    total = 14695981039346656037
+    for byte in content[HEADER:]:
+        total = (total ^ byte) * 1099511628211 % 2**64
+    content[HEADER - 8 : HEADER] = total.to_bytes(8, "little")
+    return bytes(content)
+
+
+HEADER = 32
+"""Bytes in front of the run; the first of the run are Ts."""
+
+
+@pytest.mark.parametrize("Ts", [0.0, -TS, 5e-324, 1e9, math.nan, math.inf, -math.inf])
+def test_a_blob_made_by_hand_cannot_bring_impossible_parameters(
+    library: Library, blob: bytes, Ts: float
+) -> None:
+    assert struct.unpack_from("<d", blob, HEADER) == (TS,)
+    assert with_checksum(bytearray(blob)) == blob
+    forged = bytearray(blob)
+    struct.pack_into("<d", forged, HEADER, Ts)
+    fmu = fmu_in(library, "stepping")
+    assert read_back(fmu, with_checksum(forged)) == ERROR
+    assert "inconsistent" in fmu.messages[0]
     fmu.free()

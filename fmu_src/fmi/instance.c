@@ -143,15 +143,29 @@ apnc_status apnc_set(apnc_instance *instance, uint32_t value_reference, apnc_typ
     return APNC_OK;
 }
 
-static apnc_status check_parameters(apnc_instance *instance) {
+/* Value of an entry of a row. */
+static double value_of(const apnc_data *data, const apnc_row *row, int element) {
+    const size_t size = row->type == APNC_REAL ? sizeof(double) : sizeof(int32_t);
+    return number_at(row, (const char *)data + row->offset + (size_t)element * size);
+}
+
+static int is_parameter(const apnc_row *row) {
+    return row->role == APNC_FIXED || row->role == APNC_TUNABLE;
+}
+
+int apnc_parameters_in_range(const apnc_data *data) {
+    for (int i = 0; i < APNC_ROWS; i++)
+        for (int k = 0; is_parameter(&apnc_rows[i]) && k < apnc_rows[i].count; k++)
+            if (!in_range(&apnc_rows[i], value_of(data, &apnc_rows[i], k))) return 0;
+    return 1;
+}
+
+static apnc_status report_parameters(apnc_instance *instance) {
     apnc_status status = APNC_OK;
     for (int i = 0; i < APNC_ROWS; i++) {
         const apnc_row *row = &apnc_rows[i];
-        if (row->role != APNC_FIXED && row->role != APNC_TUNABLE) continue;
-        const size_t size = row->type == APNC_REAL ? sizeof(double) : sizeof(int32_t);
-        for (int k = 0; k < row->count; k++) {
-            const char *at = (const char *)&instance->run.data + row->offset + (size_t)k * size;
-            const double value = number_at(row, at);
+        for (int k = 0; is_parameter(row) && k < row->count; k++) {
+            const double value = value_of(&instance->run.data, row, k);
             if (!in_range(row, value)) status = report_range(instance, row, k, value);
         }
     }
@@ -160,7 +174,7 @@ static apnc_status check_parameters(apnc_instance *instance) {
 
 apnc_status apnc_start(apnc_instance *instance) {
     apnc_run *run = &instance->run;
-    if (check_parameters(instance) != APNC_OK) return APNC_ERROR;
+    if (report_parameters(instance) != APNC_OK) return APNC_ERROR;
     refresh(instance);
     run->time = run->start_time;
     run->next_tick = 0;
@@ -238,70 +252,4 @@ apnc_status apnc_step(apnc_instance *instance, double t, double h) {
     }
     run->time = end;
     return status;
-}
-
-/* Header of a saved state. */
-typedef struct {
-    char magic[8];
-    uint32_t version; /* of the layout of apnc_run */
-    uint32_t legs;
-    uint64_t size;     /* of apnc_run [bytes] */
-    uint64_t checksum; /* FNV-1a of apnc_run */
-} blob_header;
-
-#define BLOB_MAGIC   "APNCrun"
-#define BLOB_VERSION 1u
-
-static uint64_t checksum(const unsigned char *bytes, size_t size) {
-    uint64_t hash = 14695981039346656037u;
-    for (size_t i = 0; i < size; i++) hash = (hash ^ bytes[i]) * 1099511628211u;
-    return hash;
-}
-
-size_t apnc_blob_size(void) { return sizeof(blob_header) + sizeof(apnc_run); }
-
-void apnc_blob_write(const apnc_run *run, unsigned char *blob) {
-    blob_header header = {BLOB_MAGIC, BLOB_VERSION, APNC_LEGS, sizeof *run, 0};
-    header.checksum = checksum((const unsigned char *)run, sizeof *run);
-    memcpy(blob, &header, sizeof header);
-    memcpy(blob + sizeof header, run, sizeof *run);
-}
-
-/* Whether the indices of a run stay inside its arrays. */
-static int sound(const apnc_run *run) {
-    const int32_t N = run->data.parameters.N;
-    const int32_t oldest = run->state.estimation.oldest;
-    const int32_t phase = run->phase;
-    if (phase != APNC_INSTANTIATED && phase != APNC_INITIALIZATION && phase != APNC_STEPPING &&
-        phase != APNC_TERMINATED)
-        return 0;
-    if (oldest < 0 || oldest >= APNC_WINDOW_MAX) return 0;
-    return phase != APNC_STEPPING || (N >= 1 && N <= APNC_WINDOW_MAX && oldest < N);
-}
-
-apnc_status apnc_blob_read(apnc_instance *instance, const unsigned char *blob, size_t size,
-                           apnc_run *run) {
-    blob_header header;
-    if (size < sizeof header)
-        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                           "saved state of %lu bytes is too short", (unsigned long)size);
-    memcpy(&header, blob, sizeof header);
-    if (memcmp(header.magic, BLOB_MAGIC, sizeof header.magic) != 0)
-        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "not a saved state of this FMU");
-    if (header.version != BLOB_VERSION || header.legs != APNC_LEGS || header.size != sizeof *run)
-        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                           "saved state is of version %lu for %lu legs; this FMU takes version %lu "
-                           "for %d legs",
-                           (unsigned long)header.version, (unsigned long)header.legs,
-                           (unsigned long)BLOB_VERSION, APNC_LEGS);
-    if (size != apnc_blob_size())
-        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                           "saved state has %lu bytes; %lu are needed", (unsigned long)size,
-                           (unsigned long)apnc_blob_size());
-    if (header.checksum != checksum(blob + sizeof header, sizeof *run))
-        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "saved state is damaged");
-    memcpy(run, blob + sizeof header, sizeof *run);
-    if (!sound(run))
-        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "saved state is inconsistent");
-    return APNC_OK;
 }

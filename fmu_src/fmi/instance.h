@@ -59,6 +59,9 @@ apnc_status apnc_get(apnc_instance *instance, uint32_t value_reference, apnc_typ
 apnc_status apnc_set(apnc_instance *instance, uint32_t value_reference, apnc_type wanted,
                      const void *value);
 
+/* Whether every parameter lies in its range. */
+int apnc_parameters_in_range(const apnc_data *data);
+
 /* Check all parameters against their ranges, then start the controller. */
 apnc_status apnc_start(apnc_instance *instance);
 
