@@ -147,19 +147,22 @@ def _suspend(hold: Array, q: Array, v: Array, out: Array) -> None:
 
 
 @compiled
-def _drive(servo: Array, q: Array, v: Array, target: Array, out: Array, torque: Array) -> None:
+def _drive(
+    servo: Array, q: Array, v: Array, target: Array, dt: float, work: Array, out: Array
+) -> None:
     for i in range(target.size):
-        torque[i] = servo_torque(servo, target[i] - q[6 + i], v[6 + i])
-        out[6 + i] += torque[i]
+        torque = servo_torque(servo, target[i] - q[6 + i], v[6 + i])
+        out[6 + i] += torque
+        out[q.size + i] = torque
+        work[i] += abs(torque * v[6 + i]) * dt
 
 
 @compiled
 def _touch(
-    parameters: Array,
+    contact: Array,
     ground: Rows,
     body: Any,
     leg: Any,
-    point: V3,
     normal: V3,
     depth: float,
     out: Array,
@@ -172,8 +175,8 @@ def _touch(
     (first coordinate, mount, hip pivot, knee pivot, foot, axis, joint speeds).
     """
     rotation, base, spin, roll = body
-    first, mount, hip, knee, _, axis, speeds = leg
-    contact = parameters[CONTACT : CONTACT + 6]
+    first, mount, hip, knee, foot, axis, speeds = leg
+    point = _add(foot, _turn_back(rotation, _turn(ground, _scale(-contact[0], normal))))
     from_mount = _sub(point, mount)
     # Exudyn turns hip and knee about +y, the leg swings forward about -y: both signs cancel in
     # (axis, speed), and come back where the torque is written.
@@ -213,14 +216,10 @@ def _stand(
     load: Array,
 ) -> None:
     """All contacts of one foot, whose centre is ``at`` in the frame of the ground."""
-    rotation = body[0]
-    foot = leg[4]
-    radius = parameters[CONTACT]
-    up = (0.0, 0.0, 1.0)
+    contact = parameters[CONTACT:HOLD]
+    radius = contact[0]
     if at[2] < radius:
-        under = _turn_back(rotation, _turn(ground, _scale(-radius, up)))
-        point = _add(foot, under)
-        _touch(parameters, ground, body, leg, point, up, radius - at[2], out, force, load)
+        _touch(contact, ground, body, leg, (0.0, 0.0, 1.0), radius - at[2], out, force, load)
     if at[2] >= radius + parameters[FIELD + 2]:
         return
     tile, edge = parameters[FIELD], int(parameters[FIELD + 1])
@@ -237,10 +236,7 @@ def _stand(
         depth = radius + ball[3] - distance
         if depth > 0.0:
             normal = _scale(1.0 / distance, offset)
-            under = _turn_back(rotation, _turn(ground, _scale(-radius, normal)))
-            _touch(
-                parameters, ground, body, leg, _add(foot, under), normal, depth, out, force, load
-            )
+            _touch(contact, ground, body, leg, normal, depth, out, force, load)
 
 
 @compiled
@@ -253,6 +249,8 @@ def evaluate(
     obstacles: Array,
     first_of_cell: Integers,
     members: Integers,
+    dt: float,
+    work: Array,
     out: Array,
 ) -> None:
     """Fill ``out`` with what acts on the robot.
@@ -264,6 +262,8 @@ def evaluate(
         parameters: see ``SERVO`` to ``FIELD``, shape (``PARAMETERS``,).
         obstacles: centre and radius of balls in the frame of the ground [m], shape (balls, 4).
         first_of_cell, members: balls of each cell of the tile, one after the other.
+        dt, work: length of the step that begins [s], and what the work of the servos during it,
+            |torque speed| dt, is added to [J], shape (3 n_legs,).
         out: generalized forces (6 + 3 n_legs), servo torques (3 n_legs), foot centres and forces
             of the ground on the feet in the world frame (3 n_legs each), sum of the normal forces
             of each foot (n_legs).
@@ -271,10 +271,10 @@ def evaluate(
     out[:] = 0.0
     legs = geometry.shape[0]
     size = 6 + 3 * legs
-    torque, feet = out[size : size + 3 * legs], out[size + 3 * legs : size + 6 * legs]
+    feet = out[size + 3 * legs : size + 6 * legs]
     forces, loads = out[size + 6 * legs : size + 9 * legs], out[size + 9 * legs :]
     _suspend(parameters[HOLD:GROUND], q, v, out)
-    _drive(parameters[SERVO:CONTACT], q, v, target, out, torque)
+    _drive(parameters[SERVO:CONTACT], q, v, target, dt, work, out)
     g = parameters[GROUND:FIELD]
     ground = ((g[0], g[1], g[2]), (g[3], g[4], g[5]), (g[6], g[7], g[8]))
     rotation = rotation_rpy(q[5], q[4], q[3])

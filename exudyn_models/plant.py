@@ -205,7 +205,7 @@ class Plant:
         duration = end - self.time
         steps = max(1, math.ceil(duration / self._options.step - 1e-9))
         iteration = self._solver.it
-        iteration.maxStepSize = iteration.currentStepSize = duration / steps
+        iteration.maxStepSize = iteration.currentStepSize = self._forces.step = duration / steps
         iteration.endTime = self.time = end
         solved = self._solver.SolveSteps(self._mbs, self._settings)
         data = self._mbs.systemData
@@ -222,7 +222,7 @@ class Plant:
         Args:
             ticks: rows expected.
         """
-        parts = (self._q, self._v, self._forces.result, self._reading)
+        parts = (self._q, self._v, self._forces.result, self._forces.work, self._reading)
         return Trace(parts, self._channels, ticks)
 
     def sample(self) -> dict[str, Array]:
@@ -233,8 +233,8 @@ class Plant:
 
     def _channels(self, rows: Array) -> dict[str, Array]:
         n, size = self.n_legs, BASE + 3 * self.n_legs
-        widths = [size, size, 3 * n, 3 * n, 3 * n, n, n]
-        q, v, torque, foot, force, _, reading = np.split(rows, np.cumsum(widths)[:-1], axis=1)
+        ends = np.cumsum([size, size, 3 * n, 3 * n, 3 * n, n, 3 * n])
+        q, v, torque, foot, force, _, work, reading = np.split(rows, ends, axis=1)
 
         def per_leg(values: Array) -> Array:
             return values.reshape(-1, n, 3)
@@ -246,6 +246,7 @@ class Plant:
             "joint_angle": per_leg(q[:, BASE:]) * JOINT_SIGN,
             "joint_speed": per_leg(v[:, BASE:]) * JOINT_SIGN,
             "joint_torque": per_leg(torque) * JOINT_SIGN,
+            "joint_work": per_leg(work.copy()),
             "foot_position": per_leg(foot.copy()),
             "foot_force": per_leg(force.copy()),
             "grf": reading.copy(),

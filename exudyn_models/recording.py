@@ -50,6 +50,7 @@ PLANT_CHANNELS: Final[tuple[Channel, ...]] = (
     Channel("joint_angle", "rad", "joint angle relative to the reference pose", True, JOINTS),
     Channel("joint_speed", "rad/s", "joint angular velocity", True, JOINTS),
     Channel("joint_torque", "N.m", "torque the servo applies to the joint", True, JOINTS),
+    Channel("joint_work", "J", "|torque times speed| over time since the start", True, JOINTS),
     Channel("foot_position", "m", "centre of the foot ball, world frame", True, XYZ),
     Channel("foot_force", "N", "force of the ground on the foot, world frame", True, XYZ),
     Channel("grf", "N", "load the foot sensor delivers to the controller", True),

@@ -43,6 +43,9 @@ class RobotForces:
     Attributes:
         target: commanded tree coordinates of the joints [rad], shape (3 n_legs,); written by the
             plant.
+        step: length of the integration step [s]; written by the plant.
+        work: what every servo did since the start, |torque times speed| over time [J], shape
+            (3 n_legs,).
         torque, foot, force, load: what :meth:`measure` found: servo torques in tree coordinates
             [N m], foot centres [m], forces on the feet [N] (both world frame, flat) and sums of
             the normal forces [N].
@@ -59,6 +62,8 @@ class RobotForces:
         servo, contact = robot.servo, robot.contact
         n = len(robot.legs)
         self.target = target.copy()
+        self.step = 0.0
+        self.work = np.zeros(3 * n)
         parameters = np.zeros(forces.PARAMETERS)
         parameters[forces.SERVO : forces.CONTACT] = (
             servo.stiffness,
@@ -102,10 +107,18 @@ class RobotForces:
         self, mbs: Any, t: float, item: int, q: list[float], v: list[float]
     ) -> list[float]:
         """Generalized forces, as Exudyn asks for them."""
-        forces.evaluate(np.array(q), np.array(v), self.target, *self._fixed, self._generalized)
+        forces.evaluate(
+            np.array(q),
+            np.array(v),
+            self.target,
+            *self._fixed,
+            self.step,
+            self.work,
+            self._generalized,
+        )
         generalized: list[float] = self._acting.tolist()
         return generalized
 
     def measure(self, q: Array, v: Array) -> None:
         """Evaluate at coordinates and speeds of the tree and keep the result."""
-        forces.evaluate(q, v, self.target, *self._fixed, self._measured)
+        forces.evaluate(q, v, self.target, *self._fixed, 0.0, self.work, self._measured)
