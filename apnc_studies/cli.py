@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import sys
 import tempfile
@@ -13,11 +14,16 @@ import typer
 import apnc_core
 from apnc_core.enumerations import Method
 from apnc_core.presets import PRESETS
+from apnc_studies.bench.run import run_bench
+from apnc_studies.bench.table import show_bench
 from apnc_studies.console import StopRequest, err, out, show_summary, walking_bar
 from apnc_studies.info import show_info
+from apnc_studies.memory import Gait, gait_of_run, read_gait, write_gait
 from apnc_studies.walk import WalkOptions, parse_setting, save, walk
 from build_fmu.build import cached_fmu, host_fmu
 from build_fmu.options import NAMINGS, PLATFORMS, BuildError, BuildOptions, host_platform
+from exudyn_models.conditions import CONDITIONS
+from exudyn_models.description import load_robot
 
 app = typer.Typer(
     add_completion=False,
@@ -25,6 +31,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Adaptive neural control for legged robots: build the FMU, walk Lilibot under it.",
 )
+
+memory_app = typer.Typer(no_args_is_help=True, help="Learned gaits as files.")
+app.add_typer(memory_app, name="memory")
 
 BAD_USE = 2
 INTERRUPTED = 130
@@ -60,6 +69,8 @@ def walk_command(
     ] = None,
     fmu: Annotated[Path | None, typer.Option(help="This FMU instead of the built one.")] = None,
     robot: Annotated[str, typer.Option(help="Name or TOML file of the robot.")] = "lilibot",
+    condition: Annotated[str, typer.Option(help=f"One of {', '.join(CONDITIONS)}.")] = "C1",
+    memory: Annotated[Path | None, typer.Option(help="Start with this learned gait.")] = None,
     output: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("apnc-walk"),
     json_file: Annotated[
         Path | None, typer.Option("--json", help="Write the summary here as well.")
@@ -67,10 +78,13 @@ def walk_command(
 ) -> None:
     """Walk the robot under the FMU and write summary.json, record.csv and report.html."""
     settings = dict(parse_setting(text) for text in setting or [])
-    options = WalkOptions(mi, duration, method, seed, preset, settings, robot)
+    if memory:
+        settings = read_gait(memory).settings() | settings
+    options = WalkOptions(mi, duration, method, seed, preset, settings, robot, condition)
+    legs = len(load_robot(robot).legs)
     folder = _writable(output)
     json_path = _writable_file(json_file) if json_file else None
-    path = fmu or _built()
+    path = fmu or _built(legs)
     stop = StopRequest()
     with stop.listening():
         with walking_bar(duration) as progress:
@@ -86,9 +100,9 @@ def walk_command(
         raise typer.Exit(INTERRUPTED)
 
 
-def _built() -> Path:
+def _built(legs: int = 4) -> Path:
     with err.status("building the FMU"):
-        return host_fmu()
+        return host_fmu(legs)
 
 
 @app.command("build")
@@ -130,6 +144,42 @@ def info_command(
 ) -> None:
     """Show version, folders and the interface of the FMU."""
     show_info(fmu or _built())
+
+
+@memory_app.command("save")
+def memory_save(
+    run: Annotated[Path, typer.Argument(help="Output folder of a walk.")],
+    file: Annotated[Path, typer.Argument(help="Gait file to write.")],
+) -> None:
+    """Write the gait that a run has stored."""
+    gait = gait_of_run(run)
+    write_gait(gait, _writable_file(file))
+    out.print(f"{file}: {_in_words(gait)}", highlight=False, soft_wrap=True)
+
+
+@memory_app.command("show")
+def memory_show(file: Annotated[Path, typer.Argument(help="Gait file.")]) -> None:
+    """Show a gait file."""
+    out.print(_in_words(read_gait(file)), highlight=False, soft_wrap=True)
+
+
+def _in_words(gait: Gait) -> str:
+    first, *others = gait.legs
+    pairs = zip(others, gait.phi, strict=True)
+    return f"phase against {first}: " + ", ".join(f"{leg} {phi:.2f} rad" for leg, phi in pairs)
+
+
+@app.command("bench")
+def bench_command(
+    output: Annotated[Path, typer.Option(help="JSON file to write.")] = Path("apnc-bench.json"),
+) -> None:
+    """Measure what a tick costs, against its arithmetic and against PythonFMU."""
+    _writable_file(output)
+    with err.status("measuring") as status:
+        result = run_bench(lambda what: status.update(f"measuring: {what}"))
+    output.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+    show_bench(result)
+    out.print(f"all figures: {output}", highlight=False, soft_wrap=True)
 
 
 @app.callback(invoke_without_command=True)

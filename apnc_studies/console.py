@@ -20,6 +20,7 @@ from rich.progress import (
 )
 from rich.table import Table
 
+from apnc_studies.report.wording import rows
 from apnc_studies.summary import Summary
 
 out = Console()
@@ -88,31 +89,10 @@ def walking_bar(duration: float) -> Iterator[Any]:
 def show_summary(summary: Summary, folder: str) -> None:
     """Print the key figures and where the files are."""
     table = Table(show_header=False, box=None, padding=(0, 2))
-    for label, text in summary_rows(summary):
-        table.add_row(label, text)
-    out.print(table)
+    table.add_column(no_wrap=True)
+    table.add_column(no_wrap=True)
+    table.add_column()
+    for label, text, meaning in rows(summary):
+        table.add_row(label, text, f"[dim]{meaning}[/dim]")
+    out.print(table, highlight=False)
     out.print(f"report: {folder}/report.html", highlight=False, soft_wrap=True)
-
-
-def _figure(value: float | None, unit: str, digits: int = 2) -> str:
-    return "-" if value is None else f"{value:.{digits}f} {unit}".strip()
-
-
-def summary_rows(s: Summary) -> list[tuple[str, str]]:
-    """Label and text of every printed figure."""
-    fallen = "fell" if s.fell else "upright"
-    early = "" if s.complete else ", ended early"
-    trot = "not known" if s.converged is None else "yes" if s.converged else "no"
-    when = f", after {s.convergence_time_s:.1f} s" if s.convergence_time_s is not None else ""
-    return [
-        ("simulated", f"{s.duration_s:.1f} s, {fallen}{early}"),
-        ("trot formed and kept", trot + when),
-        ("by the authors' criterion", _figure(s.convergence_time_authors_s, "s", 1)),
-        ("relative phases at the end", " ".join(_figure(p, "") for p in s.phi_final) + " rad"),
-        ("forward speed", _figure(s.speed_m_per_s, "m/s", 3)),
-        ("duty factor", "  ".join(f"{k} {_figure(v, '')}" for k, v in s.duty_factor.items())),
-        ("balance", _figure(s.balance, "1/rad", 1)),
-        ("coordination", _figure(s.coordination, "", 1)),
-        ("cost of transport", _figure(s.cost_of_transport, "")),
-        ("real-time factor", _figure(s.real_time_factor, "", 1)),
-    ]

@@ -6,6 +6,7 @@ import csv
 import hashlib
 import json
 import math
+from collections import deque
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -77,10 +78,8 @@ def gait_of_run(folder: Path) -> Gait:
 
 
 def _last_row(file: Any) -> dict[str, str]:
-    last: dict[str, str] = {}
-    for last in csv.DictReader(file):
-        pass
-    return last
+    newest = deque(csv.DictReader(file), maxlen=1)
+    return dict(newest[0]) if newest else {}
 
 
 def _checksum(content: dict[str, Any]) -> str:

@@ -14,6 +14,7 @@ from apnc_core.schema import Causality
 from apnc_core.variables import row, rows
 from apnc_studies.report import write_report
 from apnc_studies.summary import Summary, summarise
+from exudyn_models.conditions import named_conditions
 from exudyn_models.description import load_robot
 from exudyn_models.fmu_controller import FmuController, Setting
 from exudyn_models.master import Commands, Progress, run
@@ -33,6 +34,7 @@ class WalkOptions:
         preset: name of the set of parameters.
         settings: parameters that differ from the preset, by name.
         robot: name or file of the robot.
+        condition: name of the paper's condition the robot is in, see ``CONDITIONS``.
 
     Raises:
         ValueError: a value outside what is allowed.
@@ -45,6 +47,7 @@ class WalkOptions:
     preset: str = "lilibot"
     settings: Mapping[str, Setting] = field(default_factory=dict)
     robot: str = "lilibot"
+    condition: str = "C1"
 
     def __post_init__(self) -> None:
         """Check the values."""
@@ -59,6 +62,7 @@ class WalkOptions:
             raise ValueError(f"method '{self.method}' is not one of {allowed}")
         if self.seed < 0:
             raise ValueError(f"seed = {self.seed} is negative")
+        named_conditions(self.condition)
         self.parameters()
 
     def parameters(self) -> dict[str, Setting]:
@@ -102,7 +106,7 @@ def walk(
         Ts = parameters["Ts"]
         assert isinstance(Ts, float)
         commands = Commands(MI=options.mi)
-        plant = Plant(robot, options.seed)
+        plant = Plant(robot, options.seed, conditions=named_conditions(options.condition))
         return run(plant, controller, options.duration, Ts, lambda t: commands, progress, stop)
 
 
