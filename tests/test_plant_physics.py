@@ -251,3 +251,25 @@ def test_stdout_stays_quiet(capfd: pytest.CaptureFixture[str]) -> None:
         stand(ROBOT, 0.1)
     assert printed.getvalue() == ""
     assert capfd.readouterr() == ("", "")
+
+
+def test_the_hexapod_stands_on_all_six_feet() -> None:
+    plant = stand(load_robot("hexapod"))
+    assert plant.legs == ("RF", "RM", "RH", "LF", "LM", "LH")
+    force = plant.sample()["foot_force"]
+    assert force[:, 2].sum() == pytest.approx(plant.mass * 9.81, rel=1e-3)
+    assert force[:, 2].min() > 1.0
+    np.testing.assert_allclose(plant.sample()["rpy"], 0.0, atol=0.05)
+    assert not plant.fell
+
+
+def test_the_hexapod_walks_on_alternating_tripods() -> None:
+    plant = Plant(load_robot("hexapod"))
+    tripods = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+    for tick in range(360):
+        phase = 0.12 * tick
+        hip = 0.13 * np.sin(phase) * tripods - 0.111
+        knee = 0.08 * np.cos(phase) * tripods - 0.039
+        plant.advance(hip, knee, TICK)
+    assert 0.2 < plant.sample()["position"][0] < 0.7
+    assert not plant.fell
