@@ -15,6 +15,7 @@ import platformdirs
 import apnc_core
 from build_fmu import sources
 from build_fmu.compile import compile_library
+from build_fmu.documentation import documentation
 from build_fmu.model_description import model_description
 from build_fmu.model_description_fmi3 import build_description, model_description_fmi3
 from build_fmu.options import MODEL, PLATFORMS, BuildOptions, host_platform
@@ -47,6 +48,7 @@ def fmu_bytes(
     if options.fmi == 3:
         content["sources/buildDescription.xml"] = build_description(c_files)
     content |= {f"sources/{name}": text for name, text in files.items()}
+    content |= documentation(options)
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
             (Path(folder) / name).write_bytes(text)
@@ -76,12 +78,22 @@ def _cache_key(options: BuildOptions) -> str:
         repr(options).encode(),
         apnc_core.__version__.encode(),
         importlib.metadata.version("ziglang").encode(),
-        importlib.resources.files("build_fmu").joinpath("compile.py").read_bytes(),
+        *_files_of("build_fmu"),
+        *_files_of("apnc_core"),
         repr([PLATFORMS[name] for name in options.platforms]).encode(),
         _describe(options, [], ""),
         *sources.collect(options.fmi).values(),
     ]
     return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16]
+
+
+def _files_of(package: str) -> list[bytes]:
+    """Python files and templates of a package: what a build depends on beside its options."""
+    root = importlib.resources.files(package)
+    folders = [root, root.joinpath("templates")]
+    entries = [e for f in folders if f.is_dir() for e in f.iterdir()]
+    wanted = [e for e in entries if e.name.endswith((".py", ".j2", ".txt"))]
+    return [e.read_bytes() for e in sorted(wanted, key=lambda e: e.name)]
 
 
 def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None) -> Path:

@@ -1,0 +1,158 @@
+"""Reference experiment inside the FMU, in the layout of the layered standard FMI-LS-REF.
+
+Stimuli and results let a user check an import in any tool. The results come from the Python
+reference of the controller, not from the binaries they are there to check.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from lxml import etree
+
+from apnc_core.controller import Controller
+from apnc_core.interface import Inputs, Outputs, Parameters
+from apnc_core.schema import Causality, Type
+from apnc_core.variables import Scalar, scalars
+from build_fmu.options import BuildOptions
+
+FOLDER: Final = "extra/org.fmi-standard.fmi-ls-ref"
+STOP_TIME: Final = 10
+TOLERANCE: Final = 1e-6
+"""Results are written with six decimals, so that they do not depend on who computes them."""
+
+_LS: Final = "http://fmi-standard.org/fmi-ls-manifest"
+_TICKS_PER_S: Final = 60
+_STRIDE_HZ: Final = 1.2
+_RESULTS: Final = ("theta_hip", "theta_knee", "gamma", "grf_expected", "phi", "d", "kappa", "tick")
+
+
+def reference_files(options: BuildOptions) -> dict[str, bytes]:
+    """Manifest, experiment, stimuli and results by their path in the FMU.
+
+    Args:
+        options: number of legs and naming; FMI 2.0 only.
+    """
+    members = list(scalars(options.legs, options.naming))
+    inputs = [m for m in members if m.variable.causality is Causality.input]
+    shown = [m for m in members if m.variable.name in _RESULTS]
+    stimuli = _stimuli(inputs, options.legs)
+    return {
+        f"{FOLDER}/fmi-ls-manifest.xml": _manifest(),
+        f"{FOLDER}/experiments.exp": _experiments(),
+        f"{FOLDER}/stimuli.csv": _csv(inputs, stimuli),
+        f"{FOLDER}/results.csv": _csv(shown, _results(inputs, shown, stimuli, options.legs)),
+    }
+
+
+def _stimuli(inputs: list[Scalar], legs: int) -> list[list[float]]:
+    """Trotting loads, then steering, then a robot lifted off the ground; rounded as written."""
+    rows = []
+    for n in range(STOP_TIME * _TICKS_PER_S + 1):
+        t = n / _TICKS_PER_S
+        row = []
+        for m in inputs:
+            if m.variable.name == "grf":
+                diagonal = (m.element + (m.element >= (legs + 1) // 2)) % 2
+                lift = np.sin(2 * np.pi * _STRIDE_HZ * t + np.pi * diagonal + 0.1 * m.element)
+                row.append(round(15.0 * max(0.0, float(lift)), 6) if t < STOP_TIME - 1 else 0.0)
+            elif m.variable.name == "MI":
+                row.append(0.15)
+            elif m.variable.name == "turn":
+                row.append(0.5 if 6 <= t < 8 else 0.0)
+            else:
+                row.append(0.0)
+        rows.append(row)
+    return rows
+
+
+def _results(
+    inputs: list[Scalar], shown: list[Scalar], stimuli: list[list[float]], legs: int
+) -> list[list[float]]:
+    """What is read after each step, the first row before the first step."""
+    controller = Controller(Parameters(), legs)
+    place = {(m.variable.name, m.element): i for i, m in enumerate(inputs)}
+    grf = [place["grf", leg] for leg in range(legs)]
+    rows: list[list[float]] = []
+    for given in stimuli[:-1]:
+        loads = np.array([given[i] for i in grf])
+        outputs = controller.tick(
+            Inputs(loads, given[place["MI", 0]], given[place["turn", 0]], reset=False)
+        )
+        rows.append(_row(outputs, shown))
+    # before the first step the outputs are those of tick 0, which none of the loads has touched
+    start = Controller(Parameters(), legs).tick(Inputs(np.zeros(legs), reset=False))
+    first = _row(start, shown)
+    for i, m in enumerate(shown):
+        if m.variable.name not in ("theta_hip", "theta_knee"):
+            first[i] = 0.0
+    return [first, *rows]
+
+
+def _row(outputs: Outputs, shown: list[Scalar]) -> list[float]:
+    values = []
+    for m in shown:
+        value = np.atleast_1d(getattr(outputs, m.variable.name))
+        values.append(float(value[m.element]))
+    return values
+
+
+def _csv(members: list[Scalar], rows: list[list[float]]) -> bytes:
+    lines = [",".join(["time", *(m.name for m in members)])]
+    for n, row in enumerate(rows):
+        texts = [
+            f"{value + 0.0:.6f}" if m.variable.type is Type.real else str(int(value))
+            for m, value in zip(members, row, strict=True)
+        ]
+        lines.append(",".join([repr(n / _TICKS_PER_S), *texts]))
+    # minus zero reads like a mistake
+    return ("\n".join(lines) + "\n").replace("-0.000000", "0.000000").encode()
+
+
+def _manifest() -> bytes:
+    names = {"fmi-ls": _LS}
+    root = etree.Element("fmiReferences", nsmap=names)
+    root.set(f"{{{_LS}}}fmi-ls-name", "org.fmi-standard.fmi-ls-ref")
+    root.set(f"{{{_LS}}}fmi-ls-version", "1.0.0-alpha.1")
+    root.set(
+        f"{{{_LS}}}fmi-ls-description",
+        "Layered Standard providing information on related files included in an FMU.",
+    )
+    for source, role, kind, description in (
+        ("experiments.exp", "experiment/smoke-test", "application/x-ma-hs-experiments",
+         "trotting loads, steering, then no load"),
+        ("stimuli.csv", "testcase", "text/csv", "inputs of the experiment, held between rows"),
+        ("results.csv", "result", "text/csv", "outputs of the experiment after each step"),
+        ("../../documentation/index.html", "document", "text/html", "what this FMU is"),
+    ):  # fmt: skip
+        etree.SubElement(
+            root, "Related", source=source, role=role, type=kind, description=description
+        )
+    return _xml(root)
+
+
+def _experiments() -> bytes:
+    root = etree.Element("Experiments", name="Smoke test", description="Is the import right?")
+    experiment = etree.SubElement(
+        root,
+        "Experiment",
+        name="trot",
+        description="trotting loads, steering from 6 s to 8 s, no load from 9 s",
+        tolerance=repr(TOLERANCE),
+    )
+    etree.SubElement(
+        experiment,
+        "TransientSimulation",
+        startTime="0",
+        stopTime=str(STOP_TIME),
+        stepSize=repr(1 / _TICKS_PER_S),
+    )
+    etree.SubElement(experiment, "Stimuli", source="stimuli.csv", type="text/csv")
+    etree.SubElement(experiment, "References", source="results.csv", type="text/csv")
+    return _xml(root)
+
+
+def _xml(root: etree._Element) -> bytes:
+    text: bytes = etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8")
+    return text
