@@ -19,6 +19,7 @@ from apnc_studies.bench.table import show_bench
 from apnc_studies.console import StopRequest, err, out, show_summary, walking_bar
 from apnc_studies.info import show_info
 from apnc_studies.memory import Gait, gait_of_run, read_gait, write_gait
+from apnc_studies.study_cli import study
 from apnc_studies.walk import WalkOptions, parse_setting, save, walk
 from build_fmu.build import cached_fmu, host_fmu
 from build_fmu.options import NAMINGS, PLATFORMS, BuildError, BuildOptions, host_platform
@@ -34,6 +35,7 @@ app = typer.Typer(
 
 memory_app = typer.Typer(no_args_is_help=True, help="Learned gaits as files.")
 app.add_typer(memory_app, name="memory")
+app.add_typer(study, name="study")
 
 BAD_USE = 2
 INTERRUPTED = 130
@@ -113,11 +115,13 @@ def build_command(
     fmi: Annotated[int, typer.Option(help="Version of the standard, 2 or 3.")] = 2,
     platform: Annotated[
         list[str] | None,
-        typer.Option(help=f"One of {', '.join(PLATFORMS)}, all, or host; repeatable."),
+        typer.Option(
+            help=f"One of {', '.join(PLATFORMS)}, host, or all; repeatable; all if omitted."
+        ),
     ] = None,
 ) -> None:
     """Build the FMU."""
-    chosen = _platforms(platform or ["host"])
+    chosen = _platforms(platform or ["all"])
     options = BuildOptions(legs=legs, naming=naming, platforms=chosen, fmi=fmi)
     _writable_file(output)
     with err.status("building") as status:
