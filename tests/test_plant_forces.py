@@ -118,7 +118,7 @@ def by_hand(obstacles: np.ndarray, place: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_feet_are_pushed_away_from_the_centre_of_every_obstacle_they_touch(seed: int) -> None:
-    ground = Ground(roughness=1.0, seed=seed)
+    ground = Ground(roughness=1.0, seed=seed, density=200.0)
     forces = RobotForces(ROBOT, ground, np.zeros(12))
     obstacles = ground.obstacles()
     random = np.random.default_rng(seed)
@@ -151,12 +151,12 @@ def test_obstacles_have_the_height_and_density_asked_for(roughness: float) -> No
     ground = Ground(roughness=roughness, seed=3)
     balls = ground.obstacles()
     np.testing.assert_allclose(balls[:, 2] + balls[:, 3], roughness * STEP_HEIGHT, atol=1e-15)
-    assert len(balls) == 1600
+    assert len(balls) == 960
     diameters = 2.0 * balls[:, 3]
     assert 0.03 <= diameters.min() < 0.031
     assert 0.099 < diameters.max() <= 0.1
-    # Uniform: the mean of 1600 diameters is within 4 standard errors of 65 mm.
-    assert diameters.mean() == pytest.approx(0.065, abs=4 * 0.07 / math.sqrt(12 * 1600))
+    # Uniform: the mean of 960 diameters is within 4 standard errors of 65 mm.
+    assert diameters.mean() == pytest.approx(0.065, abs=4 * 0.07 / math.sqrt(12 * 960))
 
 
 def test_obstacles_cover_the_share_of_ground_that_chance_gives() -> None:
