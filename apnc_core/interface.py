@@ -83,7 +83,7 @@ class Parameters:
     N: int = 50
     sigma: float = 0.4
     kappa_rule: KappaRule = KappaRule.armed
-    kappa_hold: int = 161
+    kappa_hold: int = 300
     xi: float = 0.0246
     coupling_sign: CouplingSign = CouplingSign.reversed
     phi_frozen: bool = True

@@ -1,0 +1,124 @@
+"""The command line of the studies: ``apnc study contact``, ``formation`` and ``memory``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from apnc_studies import contact_study
+from apnc_studies.console import StopRequest, err, out
+from apnc_studies.formation_study import MI_VALUES, run_formation
+from apnc_studies.memory_study import run_memory
+
+study = typer.Typer(no_args_is_help=True, help="Run a study: CSV, table and picture.")
+
+INTERRUPTED = 130
+
+Trials = Annotated[int, typer.Option(help="Seeds per cell of the grid.")]
+Workers = Annotated[int, typer.Option(help="Processes.")]
+Output = Annotated[Path | None, typer.Option(help="Folder for the results.")]
+Resume = Annotated[bool, typer.Option("--resume", help="Keep the trials finished before.")]
+
+
+@contextmanager
+def _bar(label: str) -> Iterator[Callable[[float, float], None]]:
+    """Progress bar with elapsed and remaining time; yields what to call with done and total."""
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+        console=err,
+        refresh_per_second=4,
+    )
+    task = bar.add_task(label, total=None)
+
+    def update(done: float, total: float) -> None:
+        if not bar.live.is_started:  # not before the first trial: until then mistakes may show
+            bar.start()
+        bar.update(task, completed=done, total=total)
+
+    try:
+        yield update
+    finally:
+        if bar.live.is_started:
+            bar.stop()
+
+
+def _folder(output: Path | None, name: str) -> Path:
+    folder = output or Path(f"apnc-{name}")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(f"output folder {folder} cannot be written: {error.strerror}") from None
+    return folder
+
+
+def _finish(table: Path, text: str, stop: StopRequest) -> None:
+    out.print(text, highlight=False, markup=False, soft_wrap=True)
+    out.print(f"results: {table.parent}", highlight=False, soft_wrap=True)
+    if stop.asked:
+        err.print(f"interrupted; --resume continues in {table.parent}", highlight=False)
+        raise typer.Exit(INTERRUPTED)
+
+
+@study.command("formation")
+def formation_command(
+    trials: Trials = 20,
+    methods: Annotated[str, typer.Option(help="Controllers, comma separated.")] = "apnc,apc",
+    mi: Annotated[
+        list[float] | None, typer.Option(help="Modulatory input; repeatable. All 13 if omitted.")
+    ] = None,
+    duration: Annotated[float, typer.Option(help="Simulated time of a trial [s].")] = 45.0,
+    workers: Workers = 2,
+    output: Output = None,
+    resume: Resume = False,
+) -> None:
+    """Convergence of the gait over MI on flat ground (Fig. 4)."""
+    folder, stop = _folder(output, "formation"), StopRequest()
+    with stop.listening(), _bar("formation") as progress:
+        table = run_formation(
+            folder,
+            trials,
+            tuple(mi or MI_VALUES),
+            tuple(name.strip() for name in methods.split(",")),
+            workers,
+            progress,
+            duration=duration,
+            resume=resume,
+            stop=stop,
+        )
+    _finish(table, (folder / "formation.md").read_text(encoding="utf-8"), stop)
+
+
+@study.command("memory")
+def memory_command(
+    trials: Trials = 20, workers: Workers = 2, output: Output = None, resume: Resume = False
+) -> None:
+    """States S1 to S3, with and without the neural couplings (Fig. 9-12)."""
+    folder, stop = _folder(output, "memory"), StopRequest()
+    with stop.listening(), _bar("memory") as progress:
+        table = run_memory(folder, trials, workers, progress, resume=resume, stop=stop)
+    _finish(table, (folder / "memory.md").read_text(encoding="utf-8"), stop)
+
+
+@study.command("contact")
+def contact_command(output: Output = None) -> None:
+    """Step-size study of the ground contact."""
+    folder = _folder(output, "contact")
+    with _bar("contact") as progress:
+        contact_study.run(folder, lambda share: progress(round(100.0 * share), 100.0))
+    out.print(f"results: {folder}", highlight=False, soft_wrap=True)
