@@ -9,13 +9,14 @@ import sys
 import zipfile
 from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
 from native_driver import HEADERS, OUTPUTS, drive
 from slave import TS, slave
 
 from apnc_core.enumerations import KappaRule, Method
-from build_fmu.build import cached_fmu, fmu_bytes
+from build_fmu.build import cached_fmu, fmu_bytes, host_fmu
 from build_fmu.options import MODEL, PLATFORMS, BuildOptions, host_platform
 
 lief = pytest.importorskip("lief", reason="lief is missing (PyPI package lief)")
@@ -210,3 +211,19 @@ def test_a_bare_compiler_rebuilds_the_library(
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert standard_functions() <= exports(lief.parse(str(library)))
+
+
+def test_fmpy_rebuilds_it_from_its_sources(tmp_path: Path) -> None:
+    for tool in ("cmake", "cc"):
+        if shutil.which(tool) is None:
+            pytest.skip(f"{tool} is missing (Debian packages cmake and gcc)")
+    path = tmp_path / "Apnc.fmu"
+    path.write_bytes(fmu_bytes(BuildOptions(platforms=())))
+    command = [sys.executable, "-m", "fmpy", "compile", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    built = fmpy.simulate_fmu(str(path), stop_time=2.0)
+    shipped = fmpy.simulate_fmu(str(host_fmu()), stop_time=2.0)
+    assert built.dtype == shipped.dtype and len(built) == len(shipped) == 121
+    for name in built.dtype.names:
+        np.testing.assert_allclose(built[name], shipped[name], rtol=0, atol=1e-12)
