@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import shutil
 import sys
-import tempfile
 from pathlib import Path
 from typing import Annotated
 
@@ -16,7 +15,18 @@ from apnc_core.enumerations import Method
 from apnc_core.presets import PRESETS
 from apnc_studies.bench.run import run_bench
 from apnc_studies.bench.table import show_bench
-from apnc_studies.console import StopRequest, err, out, show_summary, walking_bar
+from apnc_studies.console import (
+    BAD_USE,
+    INTERRUPTED,
+    StopRequest,
+    err,
+    out,
+    show_summary,
+    walking_bar,
+    writable,
+    writable_file,
+)
+from apnc_studies.evaluation_cli import add_evaluation
 from apnc_studies.info import show_info
 from apnc_studies.memory import Gait, gait_of_run, read_gait, write_gait
 from apnc_studies.study_cli import study
@@ -35,28 +45,8 @@ app = typer.Typer(
 
 memory_app = typer.Typer(no_args_is_help=True, help="Learned gaits as files.")
 app.add_typer(memory_app, name="memory")
+add_evaluation(study)
 app.add_typer(study, name="study")
-
-BAD_USE = 2
-INTERRUPTED = 130
-
-
-def _writable(folder: Path) -> Path:
-    """``folder``, made and proved writable before anything is computed."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise ValueError(f"output folder {folder} cannot be written: {error.strerror}") from None
-    return folder
-
-
-def _writable_file(path: Path) -> Path:
-    if path.is_dir():
-        raise ValueError(f"file {path} is a folder")
-    _writable(path.parent)
-    return path
 
 
 @app.command("walk")
@@ -84,8 +74,8 @@ def walk_command(
         settings = read_gait(memory).settings() | settings
     options = WalkOptions(mi, duration, method, seed, preset, settings, robot, condition)
     legs = len(load_robot(robot).legs)
-    folder = _writable(output)
-    json_path = _writable_file(json_file) if json_file else None
+    folder = writable(output)
+    json_path = writable_file(json_file) if json_file else None
     path = fmu or _built(legs)
     stop = StopRequest()
     with stop.listening():
@@ -123,7 +113,7 @@ def build_command(
     """Build the FMU."""
     chosen = _platforms(platform or ["all"])
     options = BuildOptions(legs=legs, naming=naming, platforms=chosen, fmi=fmi)
-    _writable_file(output)
+    writable_file(output)
     with err.status("building") as status:
         path = cached_fmu(options, lambda name: status.update(f"compiling for {name}"))
     shutil.copyfile(path, output)
@@ -157,7 +147,7 @@ def memory_save(
 ) -> None:
     """Write the gait that a run has stored."""
     gait = gait_of_run(run)
-    write_gait(gait, _writable_file(file))
+    write_gait(gait, writable_file(file))
     out.print(f"{file}: {_in_words(gait)}", highlight=False, soft_wrap=True)
 
 
@@ -178,7 +168,7 @@ def bench_command(
     output: Annotated[Path, typer.Option(help="JSON file to write.")] = Path("apnc-bench.json"),
 ) -> None:
     """Measure what a tick costs, against its arithmetic and against PythonFMU."""
-    _writable_file(output)
+    writable_file(output)
     with err.status("measuring") as status:
         result = run_bench(lambda what: status.update(f"measuring: {what}"))
     output.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import signal
+import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from types import FrameType
 from typing import Any
 
@@ -25,6 +27,36 @@ from apnc_studies.summary import Summary
 
 out = Console()
 err = Console(stderr=True)
+
+BAD_USE = 2
+INTERRUPTED = 130
+
+
+def writable(folder: Path) -> Path:
+    """``folder``, made and proved writable before anything is computed.
+
+    Raises:
+        ValueError: it cannot be made or written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise ValueError(f"output folder {folder} cannot be written: {error.strerror}") from None
+    return folder
+
+
+def writable_file(path: Path) -> Path:
+    """``path``, whose folder is made and proved writable.
+
+    Raises:
+        ValueError: it is a folder, or its folder cannot be written.
+    """
+    if path.is_dir():
+        raise ValueError(f"file {path} is a folder")
+    writable(path.parent)
+    return path
 
 
 class StopRequest:
@@ -84,6 +116,31 @@ def walking_bar(duration: float) -> Iterator[Any]:
     finally:
         if bar.live.is_started:
             bar.stop()
+
+
+@contextmanager
+def study_bar(name: str, trials: int, simulated: float) -> Iterator[Any]:
+    """Progress bar of a study; yields the function to call with trials and time [s] done."""
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TaskProgressColumn(),
+        TextColumn("{task.fields[state]}"),
+        TimeRemainingColumn(),
+        console=err,
+    )
+    task = bar.add_task(name, total=simulated, state="")
+    begin, before = time.perf_counter(), None
+
+    def update(done: int, reached: float) -> None:
+        nonlocal before
+        before = reached if before is None else before  # what an earlier run had finished
+        speed = (reached - before) / (time.perf_counter() - begin)
+        state = f"{done} of {trials} trials  {speed:.0f} simulated s/s"
+        bar.update(task, completed=reached, state=state)
+
+    with bar:
+        yield update
 
 
 def show_summary(summary: Summary, folder: str) -> None:
