@@ -198,11 +198,12 @@ static uint64_t checksum(const unsigned char *bytes, size_t size) {
 /* Spoils the blob; sometimes so that its checksum is right again, as a hostile file would. */
 static void spoil(void) {
     const size_t header = blob_size - sizeof(apnc_run);
-    const size_t parts[] = {0, sizeof(apnc_data), offsetof(apnc_run, start_time)};
+    const size_t parts[] = {0, sizeof(apnc_data), offsetof(apnc_run, start_time),
+                            offsetof(apnc_run, state.estimation.oldest)};
     const size_t sizes[] = {sizeof(apnc_parameters), sizeof(apnc_state),
-                            sizeof(apnc_run) - offsetof(apnc_run, start_time)};
+                            sizeof(apnc_run) - offsetof(apnc_run, start_time), 3 * sizeof(int32_t)};
     for (uint32_t k = draw(4); k > 0; k--) {
-        const uint32_t part = draw(3);
+        const uint32_t part = draw(4);
         const size_t at = header + parts[part] + draw((uint32_t)sizes[part]);
         const double number = odd_real();
         switch (draw(4)) {
