@@ -50,9 +50,11 @@ def library_path(unpacked: Path, platform: str) -> Path:
     return unpacked / "binaries" / platform / (MODEL + PLATFORMS[platform].suffix)
 
 
-def standard_functions() -> set[str]:
-    """Functions of FMI 2.0 co-simulation, from the header of the standard."""
-    header = (HEADERS / "fmi2Functions.h").read_text()
+def standard_functions(fmi: int = 2) -> set[str]:
+    """Functions of co-simulation, from the header of the standard."""
+    header = (HEADERS / f"fmi{fmi}Functions.h").read_text()
+    if fmi == 3:  # every library offers those of all kinds of FMU
+        return set(re.findall(r"FMI3_Export\s+\w+TYPE\s+(\w+);", header))
     common = header[header.rindex("\nCommon Functions") :]  # behind the renaming macros
     before, _, rest = common.partition("Functions for FMI2 for Model Exchange")
     _, _, after = rest.partition("Functions for FMI2 for Co-Simulation")
@@ -69,14 +71,32 @@ def exports(library: object) -> set[str]:
     return {s.name for s in library.exported_symbols}  # type: ignore[attr-defined]
 
 
-def test_the_standard_has_34_functions_for_co_simulation() -> None:
+def test_the_standard_has_34_functions_for_co_simulation_and_75_in_version_3() -> None:
     assert len(standard_functions()) == 34
+    assert len(standard_functions(3)) == 75
 
 
 @pytest.mark.parametrize("platform", PLATFORMS)
 def test_exports_are_exactly_the_functions_of_the_standard(unpacked: Path, platform: str) -> None:
     library = lief.parse(str(library_path(unpacked, platform)))
     assert exports(library) == standard_functions()
+
+
+@pytest.fixture(scope="session")
+def everywhere3(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("everywhere3")
+    with zipfile.ZipFile(cached_fmu(BuildOptions(fmi=3))) as archive:
+        archive.extractall(folder)
+    return folder
+
+
+@pytest.mark.parametrize("platform", PLATFORMS)
+def test_exports_of_fmi_3_are_exactly_the_functions_of_the_standard(
+    everywhere3: Path, platform: str
+) -> None:
+    folder = everywhere3 / "binaries" / PLATFORMS[platform].folder_for(3)
+    library = lief.parse(str(folder / (MODEL + PLATFORMS[platform].suffix)))
+    assert exports(library) == standard_functions(3)
 
 
 @pytest.mark.parametrize("platform", LINUX)
@@ -227,3 +247,15 @@ def test_fmpy_rebuilds_it_from_its_sources(tmp_path: Path) -> None:
     assert built.dtype == shipped.dtype and len(built) == len(shipped) == 121
     for name in built.dtype.names:
         np.testing.assert_allclose(built[name], shipped[name], rtol=0, atol=1e-12)
+
+
+def test_the_command_builds_all_platforms_unless_told_otherwise(
+    everywhere: Path, tmp_path: Path
+) -> None:
+    path = tmp_path / "a folder (1)" / "größe" / "Apnc.fmu"
+    command = [sys.executable, "-m", "apnc_studies", "build", "--output", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert path.read_bytes() == everywhere.read_bytes()
+    # and such a path is no obstacle to loading it
+    assert fmpy.simulate_fmu(str(path), stop_time=0.5)["tick"][-1] == 30
