@@ -125,13 +125,14 @@ class Controller:
             return self._hold(scale, fault)
 
         theta_hip, theta_knee = motor_neurons.command(c.o1, c.o2, scale, p)
-        gamma = self._gain()
-        f1, f2 = sensory_feedback.feedback(gamma, F, c.o1, c.o2)
 
         angle = self.acquisition.update(c.o1, c.o2, p)
         d = self.stability.update(angle)
         kappa = self._kappa(angle, d)
         g1, g2 = self._coupling(angle, kappa)
+
+        gamma = self._gain(kappa)
+        f1, f2 = sensory_feedback.feedback(gamma, F, c.o1, c.o2)
 
         a1, a2 = oscillator.activation(c.o1, c.o2, self.MI, p)
         a1, a2 = a1 - f1 + g1, a2 - f2 + g2
@@ -163,12 +164,13 @@ class Controller:
         self._advance(theta_hip, F, a1, a2)
         return outputs
 
-    def _gain(self) -> Array:
+    def _gain(self, kappa: float) -> Array:
         if self.p.method == Method.tegotae:
             return tegotae.gain(self.n_legs, self.p)
         if self.p.method == Method.phase_reset:
             return np.zeros(self.n_legs)
-        return dual_rate_learner.gain(self.circuits.K_f, self.circuits.K_s)
+        gamma = dual_rate_learner.gain(self.circuits.K_f, self.circuits.K_s)
+        return self.p.feedback_kept * gamma if kappa > 0.0 else gamma
 
     def _kappa(self, angle: Array, d: float) -> float:
         settled = self.switch.settled(d, self.p)

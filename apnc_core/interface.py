@@ -46,6 +46,8 @@ class Parameters:
         kappa_rule: when the couplings switch on; the paper prints Eq. 16 (Eq. 16).
         kappa_hold: ticks that d stays at or below sigma before kappa switches on (Eq. 16).
         xi: gain of the neural communication (Eq. 17).
+        feedback_kept: share of the sensory feedback that stays while the couplings are on; 1 as in
+            the equations (Eq. 5).
         coupling_sign: sign of the coupling term; the paper prints plus (Eq. 18).
         phi_frozen: true: the couplings hold the phases measured when kappa switched on; false: the
             phases measured now, as Eq. 17 reads (Eq. 17).
@@ -85,6 +87,7 @@ class Parameters:
     kappa_rule: KappaRule = KappaRule.armed
     kappa_hold: int = 300
     xi: float = 0.0246
+    feedback_kept: float = 0.4
     coupling_sign: CouplingSign = CouplingSign.reversed
     phi_frozen: bool = True
     MI_zero_resets: bool = True

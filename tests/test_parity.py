@@ -63,6 +63,7 @@ MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
     "phase estimation": ("phase_estimation.h", "1.0 / N", "1.0 / (N + 1)", {}),
     "switch": ("phase_estimation.h", "s->calm >= p", "s->calm > p", COUPLED),
     "neural coupling": ("neural_coupling.h", "gain * (", "1.0001 * gain * (", COUPLED),
+    "yielding feedback": ("controller.c", "kept * gamma", "kept * 1.001 * gamma", COUPLED),
     "tegotae": ("tegotae.h", "p->gamma_tegotae", "0.9 * p->gamma_tegotae", CASES["tegotae"]),
     "phase reset": ("phase_reset.h", "F_before < threshold &&", "", CASES["phase_reset"]),
 }

@@ -18,7 +18,7 @@
 #define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
 #define APNC_VR_STRIDE 100u /* value reference = stride * row + element */
 #define APNC_VR_TIME 9900u /* of the independent variable in FMI 3.0 */
-#define APNC_ROWS 55
+#define APNC_ROWS 56
 
 #define APNC_MI_START 0.08
 #define APNC_MI_MIN (0.0)
@@ -77,6 +77,7 @@ typedef struct {
     int32_t kappa_rule; /* Eq. 16: when the couplings switch on; the paper prints Eq. 16 */
     int32_t kappa_hold; /* Eq. 16: ticks that d stays at or below sigma before kappa switches on */
     double xi; /* [1] Eq. 17: gain of the neural communication */
+    double feedback_kept; /* [1] Eq. 5: share of the sensory feedback that stays while the couplings are on; 1 as in the equations */
     int32_t coupling_sign; /* Eq. 18: sign of the coupling term; the paper prints plus */
     int32_t phi_frozen; /* Eq. 17: true: the couplings hold the phases measured when kappa switched on; false: the phases measured now, as Eq. 17 reads */
     int32_t MI_zero_resets; /* Eq. 3: true: MI = 0 acts as reset; false: the oscillators run on at w12 = w12_0, as Eq. 3 reads */

@@ -93,10 +93,11 @@ void apnc_init(const apnc_parameters *p, apnc_state *state, apnc_outputs *out) {
     observe_rest(p, state, out);
 }
 
-static double feedback_gain(const apnc_parameters *p, double K_f, double K_s) {
+static double feedback_gain(const apnc_parameters *p, double K_f, double K_s, double kappa) {
     if (p->method == APNC_METHOD_TEGOTAE) return apnc_tegotae_gain(p);
     if (p->method == APNC_METHOD_PHASE_RESET) return 0.0;
-    return apnc_gain(K_f, K_s);
+    const double gamma = apnc_gain(K_f, K_s);
+    return kappa > 0.0 ? p->feedback_kept * gamma : gamma;
 }
 
 /* Phases, their stability and kappa at n; the angles [rad] are returned for live coupling. */
@@ -143,7 +144,7 @@ static void evaluate(const apnc_circuits *c, int coupled, trigonometry *t) {
 static void feed_back(const apnc_parameters *p, const apnc_circuits *c, const double *F,
                       const trigonometry *t, apnc_outputs *out) {
     for (int leg = 0; leg < APNC_LEGS; leg++) {
-        out->gamma[leg] = feedback_gain(p, c->K_f[leg], c->K_s[leg]);
+        out->gamma[leg] = feedback_gain(p, c->K_f[leg], c->K_s[leg], out->kappa);
         apnc_feedback(out->gamma[leg], F[leg], t->cos_o1[leg], t->sin_o2[leg], &out->f1[leg],
                       &out->f2[leg]);
         out->g1[leg] = out->g2[leg] = 0.0;
