@@ -160,3 +160,18 @@ class Instance:
     def free(self) -> None:
         self.library.calls.fmi2FreeInstance(self.component)
         self.component = None
+
+
+def fmu_in(library: Library, state: str) -> Instance:
+    """A fresh instance, brought to a state of the standard by name."""
+    fmu = Instance(library)
+    if state == "instantiated":
+        return fmu
+    assert fmu("fmi2SetupExperiment", 0, 0.0, 0.0, 0, 0.0) == OK
+    assert fmu("fmi2EnterInitializationMode") == OK
+    if state == "initialization":
+        return fmu
+    assert fmu("fmi2ExitInitializationMode") == OK
+    if state == "terminated":
+        assert fmu("fmi2Terminate") == OK
+    return fmu

@@ -5,12 +5,10 @@ from __future__ import annotations
 import ctypes
 import math
 import random
-import struct
-from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from raw_fmu import DISCARD, ERROR, OK, PROTOTYPES, TS, WARNING, Instance, Library
+from raw_fmu import DISCARD, ERROR, OK, PROTOTYPES, TS, WARNING, Instance, Library, fmu_in
 from slave import SCALARS
 
 from apnc_core.schema import Causality, Type
@@ -22,20 +20,6 @@ BOOLEAN = (ctypes.c_uint * 1)(SCALARS["reset"].value_reference)
 FINE = (ctypes.c_double * 1)(0.1)
 WHOLE = (ctypes.c_int * 1)(1)
 ROOM = ctypes.create_string_buffer(8)
-
-
-def fmu_in(library: Library, state: str) -> Instance:
-    fmu = Instance(library)
-    if state == "instantiated":
-        return fmu
-    assert fmu("fmi2SetupExperiment", 0, 0.0, 0.0, 0, 0.0) == OK
-    assert fmu("fmi2EnterInitializationMode") == OK
-    if state == "initialization":
-        return fmu
-    assert fmu("fmi2ExitInitializationMode") == OK
-    if state == "terminated":
-        assert fmu("fmi2Terminate") == OK
-    return fmu
 
 
 # Arguments that are right, and the states the standard allows the call in (FMI 2.0, 4.2.4).
@@ -341,100 +325,3 @@ def test_instances_that_cannot_be_made(library: Library, changes: dict[str, Any]
     # nor does it crash when nobody listens
     assert Instance(library, **changes, logger=False).component is None
     assert Instance(library, **changes, callbacks=False).component is None
-
-
-@pytest.fixture
-def blob(library: Library) -> Iterator[bytes]:
-    fmu = fmu_in(library, "stepping")
-    for n in range(100):
-        fmu.step(n * TS)
-    yield serialized(fmu)
-    fmu.free()
-
-
-def serialized(fmu: Instance) -> bytes:
-    state, size = ctypes.c_void_p(), ctypes.c_size_t()
-    assert fmu("fmi2GetFMUstate", ctypes.byref(state)) == OK
-    assert fmu("fmi2SerializedFMUstateSize", state, ctypes.byref(size)) == OK
-    buffer = ctypes.create_string_buffer(size.value)
-    assert fmu("fmi2SerializeFMUstate", state, buffer, size.value - 1) == ERROR
-    fmu.log.clear()
-    assert fmu("fmi2SerializeFMUstate", state, buffer, size.value) == OK
-    assert fmu("fmi2FreeFMUstate", ctypes.byref(state)) == OK
-    return buffer.raw
-
-
-def read_back(fmu: Instance, content: bytes) -> int:
-    """Status of reading a blob; what it gives is put in place and stepped, then freed."""
-    state = ctypes.c_void_p()
-    status = fmu("fmi2DeSerializeFMUstate", content, len(content), ctypes.byref(state))
-    assert (status == OK) == (state.value is not None)
-    if status == OK:
-        assert fmu("fmi2SetFMUstate", state) == OK
-        assert fmu("fmi2FreeFMUstate", ctypes.byref(state)) == OK
-    return status
-
-
-@pytest.mark.parametrize(
-    ("damage", "why"),
-    [
-        (lambda b: b"", "too short"),
-        (lambda b: b[:8], "too short"),
-        (lambda b: b[:-1], "bytes"),
-        (lambda b: b + b"\0", "bytes"),
-        (lambda b: b[:200], "bytes"),
-        (lambda b: b"PK\3\4" + b[4:], "not a saved state"),
-        (lambda b: bytes(len(b)), "not a saved state"),
-        (lambda b: b[:8] + b"\xff" + b[9:], "version"),
-        (lambda b: b[:12] + b"\x06" + b[13:], "legs"),
-        (lambda b: b[:-1] + bytes([b[-1] ^ 1]), "damaged"),
-    ],
-)
-def test_foreign_and_truncated_blobs(
-    library: Library, blob: bytes, damage: Callable[[bytes], bytes], why: str
-) -> None:
-    fmu = fmu_in(library, "stepping")
-    assert read_back(fmu, damage(blob)) == ERROR
-    assert len(fmu.messages) == 1 and why in fmu.messages[0]
-    assert fmu.step(0.0) == OK
-    assert read_back(fmu, blob) == OK
-    fmu.free()
-
-
-def test_any_flipped_bit_is_noticed(library: Library, blob: bytes) -> None:
-    fmu = fmu_in(library, "stepping")
-    rng = random.Random(1)
-    header = range(8 * 40)
-    places = [*header, *(rng.randrange(8 * len(blob)) for _ in range(3000))]
-    for place in places:
-        spoiled = bytearray(blob)
-        spoiled[place // 8] ^= 1 << place % 8
-        assert read_back(fmu, bytes(spoiled)) == ERROR, place
-    fmu.free()
-
-
-def with_checksum(content: bytearray) -> bytes:
-    """The blob with the checksum of its header made right again (FNV-1a of what follows it)."""
-    total = 14695981039346656037
-    for byte in content[HEADER:]:
-        total = (total ^ byte) * 1099511628211 % 2**64
-    content[HEADER - 8 : HEADER] = total.to_bytes(8, "little")
-    return bytes(content)
-
-
-HEADER = 32
-"""Bytes in front of the run; the first of the run are Ts."""
-
-
-@pytest.mark.parametrize("Ts", [0.0, -TS, 5e-324, 1e9, math.nan, math.inf, -math.inf])
-def test_a_blob_made_by_hand_cannot_bring_impossible_parameters(
-    library: Library, blob: bytes, Ts: float
-) -> None:
-    assert struct.unpack_from("<d", blob, HEADER) == (TS,)
-    assert with_checksum(bytearray(blob)) == blob
-    forged = bytearray(blob)
-    struct.pack_into("<d", forged, HEADER, Ts)
-    fmu = fmu_in(library, "stepping")
-    assert read_back(fmu, with_checksum(forged)) == ERROR
-    assert "inconsistent" in fmu.messages[0]
-    fmu.free()
