@@ -28,7 +28,7 @@ class Conditions:
     payload: float = 0.0
     grf_noise: float = 0.0
     damaged: tuple[str, ...] = ()
-    stuck: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
+    stuck: Mapping[str, float] = field(default_factory=dict)
     dropout: tuple[str, ...] = ()
     held_at: float | None = None
 
@@ -66,7 +66,7 @@ CONDITIONS: Final[Mapping[str, Conditions]] = MappingProxyType(
         "C3": Conditions(damaged=("RF",)),
         "C4": Conditions(payload=PAYLOAD),
         "S1": Conditions(held_at=0.02),
-        "S2": Conditions(stuck=MappingProxyType({"RF": 0.9, "LF": 0.9})),
+        "S2": Conditions(stuck={"RF": 0.9, "LF": 0.9}),
         "S3": Conditions(dropout=("RF", "RH", "LF", "LH")),
     }
 )

@@ -1,6 +1,7 @@
 """Every condition does what it says, and can be switched while the robot walks."""
 
 import math
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -142,6 +143,11 @@ def test_conditions_of_the_paper_fit_the_robot() -> None:
         conditions.check_legs(("RF", "RH", "LF", "LH"))
     with pytest.raises(ValueError, match="'C5' are not one of C1"):
         named_conditions("C5")
+
+
+@pytest.mark.parametrize("name", CONDITIONS)
+def test_conditions_go_to_other_processes(name: str) -> None:
+    assert pickle.loads(pickle.dumps(CONDITIONS[name])) == CONDITIONS[name]
 
 
 def test_legs_go_by_name() -> None:
