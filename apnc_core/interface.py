@@ -102,8 +102,8 @@ class Inputs:
     """Inputs of one tick.
 
     Attributes:
-        grf: load on the foot; not finite or negative counts as zero and raises fault ([N], shape
-            (n,), Eq. 5).
+        grf: load on the foot; not finite, negative or above 1000 weights counts as zero and raises
+            fault ([N], shape (n,), Eq. 5).
         MI: modulatory input: sets the stepping frequency; limited to its range (Eq. 3).
         turn: steering, positive turns left: scales the amplitudes of the right legs up and of the
             left legs down; limited to its range (Eq. 4).
@@ -134,7 +134,7 @@ class Outputs:
         f2: sensory feedback to neuron N2 (shape (n,), Eq. 5).
         g1: neural coupling to neuron N1, as added to its activation (shape (n,), Eq. 17).
         g2: neural coupling to neuron N2, as added to its activation (shape (n,), Eq. 17).
-        fault: true while the load input of the leg is not finite or negative (shape (n,)).
+        fault: true while the load input of the leg is unusable (shape (n,)).
         phi: relative phase phi_1k of legs 1 and k = index + 1, in [-pi/2, 3 pi/2) ([rad], shape (n
             - 1,), Eq. 12).
         phi_memory: phase relation phi_1k stored in the couplings; zero while there is none ([rad],

@@ -43,7 +43,8 @@ _METHOD, _MEASURE, _RULE, _SIGN = ENUMERATIONS
 
 TABLE: Final[tuple[Variable, ...]] = (
     _input(
-        "grf", "F", "load on the foot; not finite or negative counts as zero and raises fault",
+        "grf", "F", "load on the foot; not finite, negative or above 1000 weights counts as zero "
+        "and raises fault",
         shape=Shape.leg, start=0.0, unit="N", nominal=10.0, equation="5",
     ),
     _input(
@@ -260,7 +261,7 @@ TABLE: Final[tuple[Variable, ...]] = (
         unit="1", nominal=0.01, equation="17",
     ),
     _output(
-        "fault", "", "true while the load input of the leg is not finite or negative",
+        "fault", "", "true while the load input of the leg is unusable",
         type=Type.boolean, shape=Shape.leg,
     ),
     _output(

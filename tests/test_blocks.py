@@ -76,9 +76,9 @@ def test_turning_left_steepens_the_right_legs() -> None:
 
 
 def test_load_is_over_half_the_weight_and_nonsense_counts_as_zero() -> None:
-    F, fault = load.normalise(np.array([5.0, -1.0, math.nan, math.inf]), 20.0)
-    assert F.tolist() == [0.5, 0.0, 0.0, 0.0]
-    assert fault.tolist() == [False, True, True, True]
+    F, fault = load.normalise(np.array([5.0, -1.0, math.nan, math.inf, 2e4, 2.1e4]), 20.0)
+    assert F.tolist() == [0.5, 0.0, 0.0, 0.0, 2000.0, 0.0]
+    assert fault.tolist() == [False, True, True, True, False, True]
 
 
 def test_learner_tends_to_its_fixed_point() -> None:

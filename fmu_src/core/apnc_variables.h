@@ -89,7 +89,7 @@ typedef struct {
 
 /* Inputs of one tick. */
 typedef struct {
-    double grf[APNC_LEGS]; /* [N] Eq. 5: load on the foot; not finite or negative counts as zero and raises fault */
+    double grf[APNC_LEGS]; /* [N] Eq. 5: load on the foot; not finite, negative or above 1000 weights counts as zero and raises fault */
     double MI; /* [1] Eq. 3: modulatory input: sets the stepping frequency; limited to its range */
     double turn; /* [1] Eq. 4: steering, positive turns left: scales the amplitudes of the right legs up and of the left legs down; limited to its range */
     int32_t reset; /* while true, oscillators, learners and forward models are held at their start state; the stored phase relations are kept */
@@ -107,7 +107,7 @@ typedef struct {
     double f2[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N2 */
     double g1[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N1, as added to its activation */
     double g2[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N2, as added to its activation */
-    int32_t fault[APNC_LEGS]; /* true while the load input of the leg is not finite or negative */
+    int32_t fault[APNC_LEGS]; /* true while the load input of the leg is unusable */
     double phi[APNC_RELATIONS]; /* [rad] Eq. 12: relative phase phi_1k of legs 1 and k = index + 1, in [-pi/2, 3 pi/2) */
     double phi_memory[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k stored in the couplings; zero while there is none */
     double d; /* [rad] Eq. 15: distance of the relative phases from their mean */

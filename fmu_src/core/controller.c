@@ -1,4 +1,5 @@
 /* The controller: one tick of all blocks, in the order of the paper. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -205,8 +206,9 @@ void apnc_tick(const apnc_parameters *p, apnc_state *state, const apnc_inputs *i
     state->turn = limited(in->turn, APNC_TURN_MIN, APNC_TURN_MAX, state->turn);
     state->ticks++;
     const double scale = apnc_load_scale(p->robot_weight);
+    const double most = APNC_MOST_WEIGHTS * p->robot_weight;
     for (int leg = 0; leg < APNC_LEGS; leg++)
-        F[leg] = apnc_load(in->grf[leg], scale, &fault[leg]);
+        F[leg] = apnc_load(in->grf[leg], scale, most, &fault[leg]);
 
     if (in->reset || (p->MI_zero_resets && state->MI == 0.0)) {
         apnc_reset(p, state);

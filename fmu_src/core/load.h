@@ -2,14 +2,15 @@
 #ifndef APNC_LOAD_H
 #define APNC_LOAD_H
 
-#include <float.h>
+/* A load above so many times the weight is no load: a sensor shows it when its wire breaks. */
+#define APNC_MOST_WEIGHTS 1000.0
 
 /* Factor from a load [N] to F, the load over half the weight. */
 static inline double apnc_load_scale(double robot_weight) { return 2.0 / robot_weight; }
 
-/* F of a load [N]; zero and a fault if the load is not finite or negative. */
-static inline double apnc_load(double grf, double scale, int32_t *fault) {
-    *fault = !(grf >= 0.0 && grf <= DBL_MAX);
+/* F of a load [N]; zero and a fault if it is not finite, negative or beyond most [N]. */
+static inline double apnc_load(double grf, double scale, double most, int32_t *fault) {
+    *fault = !(grf >= 0.0 && grf <= most);
     return *fault ? 0.0 : grf * scale;
 }
 

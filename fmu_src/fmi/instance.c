@@ -201,10 +201,10 @@ static apnc_status note_faults(apnc_instance *instance, const int32_t *before) {
     const apnc_data *data = &instance->run.data;
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         if (!data->outputs.fault[leg] || before[leg]) continue;
-        status = apnc_report(instance, APNC_WARNING, APNC_LOG_WARNING,
-                             "%s = %g N at %g s is not finite or negative: it counts as zero",
-                             name_of(&apnc_rows[0], leg).text, data->inputs.grf[leg],
-                             instance->run.time);
+        status = apnc_report(
+            instance, APNC_WARNING, APNC_LOG_WARNING,
+            "%s = %g N at %g s is not finite, negative or too large: it counts as zero",
+            name_of(&apnc_rows[0], leg).text, data->inputs.grf[leg], instance->run.time);
     }
     return status;
 }
