@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from typing import Any
 
@@ -47,18 +48,22 @@ class RobotForces:
         step: length of the integration step [s]; written by the plant.
         work: what every servo did since the start, |torque times speed| over time [J], shape
             (3 n_legs,).
+        geometry: of the legs, see :func:`leg_geometry`.
         torque, foot, force, load: what :meth:`measure` found: servo torques in tree coordinates
             [N m], foot centres [m], forces on the feet [N] (both world frame, flat) and sums of
             the normal forces [N].
     """
 
-    def __init__(self, robot: RobotDescription, ground: Ground, target: Array) -> None:
+    def __init__(
+        self, robot: RobotDescription, ground: Ground, target: Array, *, touches: bool = True
+    ) -> None:
         """Bind the forces to a robot on a ground.
 
         Args:
             robot: geometry, servo and contact.
             ground: the ground.
             target: initial commanded tree coordinates of the joints [rad], shape (3 n_legs,).
+            touches: whether feet and ground touch here, or are left to Exudyn's own contact.
         """
         servo, contact = robot.servo, robot.contact
         n = len(robot.legs)
@@ -73,7 +78,7 @@ class RobotForces:
             servo.no_load_speed,
         )
         parameters[forces.CONTACT : forces.HOLD] = (
-            contact.foot_radius,
+            contact.foot_radius if touches else -math.inf,
             contact.stiffness,
             contact.damping,
             contact.damping_depth,
@@ -84,12 +89,13 @@ class RobotForces:
         parameters[forces.GROUND : forces.FIELD] = ground.rotation().ravel()
         parameters[forces.FIELD :] = (TILE, CELLS, ground.height)
         self._hold = parameters[forces.HOLD : forces.GROUND]
-        self.obstacles = ground.obstacles()
+        obstacles = ground.obstacles()
+        self.geometry = leg_geometry(robot)
         self._fixed = (
-            leg_geometry(robot),
+            self.geometry,
             parameters,
-            self.obstacles,
-            *cells(self.obstacles, contact.foot_radius),
+            obstacles,
+            *cells(obstacles, contact.foot_radius),
         )
         size = BASE + 3 * n
         # Twice as fast as making arrays of the lists, 32 times per tick.

@@ -30,11 +30,9 @@ class Tree:
     """Item numbers of the tree in its Exudyn system.
 
     Args:
-        node: node that holds the 6 + 3 n_legs coordinates.
         feet: one marker per leg, at the centre of the foot ball.
     """
 
-    node: Any
     feet: tuple[Any, ...]
 
 
@@ -108,7 +106,7 @@ def add_tree(
         )
         for link, leg in zip(tibias, robot.legs, strict=True)
     )
-    return Tree(node, feet)
+    return Tree(feet)
 
 
 def _add_base(links: _Links, trunk: MassProperties) -> int:
