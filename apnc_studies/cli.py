@@ -35,6 +35,7 @@ from build_fmu.build import cached_fmu, host_fmu
 from build_fmu.options import NAMINGS, PLATFORMS, BuildError, BuildOptions, host_platform
 from exudyn_models.conditions import CONDITIONS
 from exudyn_models.description import load_robot
+from exudyn_models.plant import CONTACTS
 
 app = typer.Typer(
     add_completion=False,
@@ -62,6 +63,7 @@ def walk_command(
     fmu: Annotated[Path | None, typer.Option(help="This FMU instead of the built one.")] = None,
     robot: Annotated[str, typer.Option(help="Name or TOML file of the robot.")] = "lilibot",
     condition: Annotated[str, typer.Option(help=f"One of {', '.join(CONDITIONS)}.")] = "C1",
+    contact: Annotated[str, typer.Option(help=f"One of {', '.join(CONTACTS)}.")] = "compiled",
     memory: Annotated[Path | None, typer.Option(help="Start with this learned gait.")] = None,
     output: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("apnc-walk"),
     json_file: Annotated[
@@ -72,7 +74,7 @@ def walk_command(
     settings = dict(parse_setting(text) for text in setting or [])
     if memory:
         settings = read_gait(memory).settings() | settings
-    options = WalkOptions(mi, duration, method, seed, preset, settings, robot, condition)
+    options = WalkOptions(mi, duration, method, seed, preset, settings, robot, condition, contact)
     legs = len(load_robot(robot).legs)
     folder = writable(output)
     json_path = writable_file(json_file) if json_file else None

@@ -18,7 +18,7 @@ from exudyn_models.conditions import named_conditions
 from exudyn_models.description import load_robot
 from exudyn_models.fmu_controller import FmuController, Setting
 from exudyn_models.master import Commands, Progress, run
-from exudyn_models.plant import Plant
+from exudyn_models.plant import Plant, PlantOptions
 from exudyn_models.recording import Record, write_csv
 
 
@@ -34,6 +34,7 @@ class WalkOptions:
         preset: name of the set of parameters.
         settings: parameters that differ from the preset, by name.
         robot: name or file of the robot.
+        contact: contact law of the feet, see ``PlantOptions``.
         condition: name of the paper's condition the robot is in, see ``CONDITIONS``.
 
     Raises:
@@ -48,6 +49,7 @@ class WalkOptions:
     settings: Mapping[str, Setting] = field(default_factory=dict)
     robot: str = "lilibot"
     condition: str = "C1"
+    contact: str = "compiled"
 
     def __post_init__(self) -> None:
         """Check the values."""
@@ -63,6 +65,7 @@ class WalkOptions:
         if self.seed < 0:
             raise ValueError(f"seed = {self.seed} is negative")
         named_conditions(self.condition)
+        PlantOptions(contact=self.contact)
         self.parameters()
 
     def parameters(self) -> dict[str, Setting]:
@@ -106,7 +109,12 @@ def walk(
         Ts = parameters["Ts"]
         assert isinstance(Ts, float)
         commands = Commands(MI=options.mi)
-        plant = Plant(robot, options.seed, conditions=named_conditions(options.condition))
+        plant = Plant(
+            robot,
+            options.seed,
+            options=PlantOptions(contact=options.contact),
+            conditions=named_conditions(options.condition),
+        )
         return run(plant, controller, options.duration, Ts, lambda t: commands, progress, stop)
 
 

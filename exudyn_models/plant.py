@@ -12,6 +12,7 @@ import numpy as np
 from exudyn_models.conditions import Conditions
 from exudyn_models.engine import exu
 from exudyn_models.forces import rotation_rpy
+from exudyn_models.own_contact import add_own_contact, own_foot_forces
 from exudyn_models.robot import GRAVITY, Array, RobotDescription
 from exudyn_models.robot_forces import RobotForces
 from exudyn_models.sensor import LoadSensor
@@ -20,6 +21,7 @@ from exudyn_models.terrain import Ground
 from exudyn_models.trace import Trace
 from exudyn_models.tree import BASE, JOINT_SIGN, add_tree
 
+CONTACTS: Final = ("compiled", "exudyn")
 TIPPED_OVER: Final = math.radians(60.0)
 
 
@@ -38,6 +40,8 @@ class PlantOptions:
         clearance: height of the lowest foot above the ground at the start [m].
         start_hip, start_knee: joint angles of every leg at the start, relative to the reference
             pose [rad].
+        contact: ``compiled``, or ``exudyn`` for Exudyn's own, on level ground without obstacles,
+            to hold the compiled one against.
     """
 
     step: float = 1.0 / 1920.0
@@ -45,9 +49,12 @@ class PlantOptions:
     clearance: float = 0.0
     start_hip: float = 0.0
     start_knee: float = 0.0
+    contact: str = "compiled"
 
     def __post_init__(self) -> None:
-        """Refuse a step that is not positive and values that are not finite."""
+        """Refuse a step that is not positive, values that are not finite, unknown contacts."""
+        if self.contact not in CONTACTS:
+            raise ValueError(f"contact '{self.contact}' is not one of {', '.join(CONTACTS)}")
         if not (math.isfinite(self.step) and self.step > 0.0):
             raise ValueError(f"step is {self.step}; allowed: a finite number above 0")
         for name in ("gravity", "clearance", "start_hip", "start_knee"):
@@ -113,7 +120,10 @@ class Plant:
         self._start = start_coordinates(robot, self._ground, angles, options.clearance)
         coordinates = self._start.copy()
         coordinates[2] += self._conditions.held_at or 0.0
-        self._forces = RobotForces(robot, self._ground, coordinates[BASE:])
+        own = options.contact == "exudyn"
+        if own and (self._ground.slope or self._ground.roughness):
+            raise ValueError("contact 'exudyn' knows level ground without obstacles only")
+        self._forces = RobotForces(robot, self._ground, coordinates[BASE:], touches=not own)
         self._coming: deque[tuple[float, Array]] = deque()
         # The container owns the system: without this reference Exudyn frees it under our feet.
         self._container = exu.SystemContainer()
@@ -121,6 +131,7 @@ class Plant:
         load = self._conditions.payload
         body = robot.trunk.loaded(side_offset, load)
         self._tree = add_tree(self._mbs, robot, body, options.gravity, coordinates, self._forces)
+        self._own_contact = add_own_contact(self._mbs, self._tree, robot.contact) if own else None
         self._mbs.Assemble()
         self._settings = _solver_settings(options.step)
         self._solver: Any = exu.MainSolverExplicit()
@@ -216,6 +227,11 @@ class Plant:
 
     def _measure(self) -> None:
         self._forces.measure(self._q, self._v)
+        if self._own_contact is not None:
+            radius = self._robot.contact.foot_radius
+            force = own_foot_forces(self._own_contact, self._q, self._forces.geometry, radius)
+            self._forces.force[:] = force.ravel()
+            self._forces.load[:] = force[:, 2]
 
     def trace(self, ticks: int) -> Trace:
         """A recorder of every channel in ``recording.PLANT_CHANNELS``, a row per tick.
