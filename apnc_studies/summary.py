@@ -126,8 +126,7 @@ def summarise(record: Record, *, method: str, mi: float, seed: int) -> Summary:
         coordination=metrics.coordination(standing),
         cost_of_transport=metrics.cost_of_transport(
             time,
-            plant["joint_torque"],
-            plant["joint_speed"],
+            plant["joint_work"],
             record.mass,
             metrics.path_length(plant["position"]),
         ),

@@ -76,6 +76,7 @@ def synthetic_record(
             "joint_angle": angle,
             "joint_speed": spin,
             "joint_torque": torque,
+            "joint_work": np.cumsum(np.abs(torque * spin), axis=0) / RATE,
             "foot_position": feet,
             "foot_force": force,
             "grf": grf,

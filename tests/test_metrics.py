@@ -250,11 +250,11 @@ def test_walking_a_circle_shows_in_the_path_speed_only() -> None:
 
 def test_cost_of_transport_of_constant_power() -> None:
     t = np.arange(601) / 60
-    torque, speed = np.full((601, 4, 3), -0.5), np.full((601, 4, 3), 2.0)
-    # 12 joints at 1 W for 10 s over 2.5 kg * 9.81 m/s^2 * 4 m.
-    expected = 120 / (2.5 * 9.81 * 4)
-    assert metrics.cost_of_transport(t, torque, speed, 2.5, 4.0) == pytest.approx(expected)
-    assert metrics.cost_of_transport(t, torque, speed, 2.5, 0.01) is None
+    # 1.5 W and 0.5 W for 10 s over 2.5 kg * 9.81 m/s^2 * 4 m; what was spent before is no matter
+    work = np.column_stack([1.5 * t, 0.5 * t + 3.0])
+    expected = 20 / (2.5 * 9.81 * 4)
+    assert metrics.cost_of_transport(t, work, 2.5, 4.0) == pytest.approx(expected)
+    assert metrics.cost_of_transport(t, work, 2.5, 0.01) is None
 
 
 def test_a_fall_is_tilt_or_lying_down() -> None:

@@ -111,30 +111,29 @@ def balance(roll: ArrayLike, pitch: ArrayLike) -> float | None:
 
 
 def cost_of_transport(
-    time: ArrayLike, torque: ArrayLike, joint_speed: ArrayLike, mass: float, distance: float | None
+    time: ArrayLike, work: ArrayLike, mass: float, distance: float | None
 ) -> float | None:
-    """Cost of transport of Fig. 7 [1]: sum(abs(torque) abs(speed) dt) / (m g distance).
+    """Cost of transport of Fig. 7 [1]: integral of abs(torque speed) dt over m g distance.
 
     Args:
         time: sample times [s], shape (T,).
-        torque: torque of every joint [N m], shape (T, ...).
-        joint_speed: speed of every joint [rad/s], same shape.
+        work: what every servo did since the start, its abs(torque speed) summed at every
+            integration step [J], shape (T, ...).
         mass: mass of the robot [kg].
         distance: distance walked [m], for instance ``path_length``.
 
     Returns:
         None if the robot did not get anywhere (mean speed below 5 mm/s).
 
-    Pitfall: braking power counts as spent, since a geared servo does not recover it.
+    Pitfall: braking power counts as spent, since a geared servo does not recover it. Torque times
+    speed at 60 Hz, as the authors sum it, misses about a tenth.
     """
     t = np.asarray(time, dtype=np.float64)
     span = _span(t)
     if distance is None or span <= 0 or distance / span < MIN_SPEED or mass <= 0:
         return None
-    power = np.abs(np.asarray(torque, dtype=np.float64) * np.asarray(joint_speed, dtype=np.float64))
-    total = power.reshape(len(t), -1).sum(axis=1)
-    energy = float((total[1:] * np.diff(t)).sum())
-    return energy / (mass * GRAVITY * distance)
+    total = np.asarray(work, dtype=np.float64).reshape(len(t), -1).sum(axis=1)
+    return float(total[-1] - total[0]) / (mass * GRAVITY * distance)
 
 
 def fell(
