@@ -89,32 +89,34 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "o1_start", "o_1(0)", "start output of neuron N1, the same for every leg",
-        variability="fixed", start=0.01, unit="1", min=-1.0, max=1.0, nominal=0.01, equation="2",
-        source="authors' code",
+        variability="fixed", start=0.1, paper=0.01, unit="1", min=-1.0, max=1.0, nominal=0.1,
+        equation="2",
+        source="chosen: noise must not make phases near the origin; authors' code: 0.01",
     ),
     _parameter(
         "o2_start", "o_2(0)", "start output of neuron N2, the same for every leg",
-        variability="fixed", start=0.01, unit="1", min=-1.0, max=1.0, nominal=0.01, equation="2",
-        source="authors' code",
+        variability="fixed", start=0.1, paper=0.01, unit="1", min=-1.0, max=1.0, nominal=0.1,
+        equation="2",
+        source="chosen: noise must not make phases near the origin; authors' code: 0.01",
     ),
     _parameter(
         "a1", "a_1", "slope of the motor neuron of the hip",
-        start=0.130, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
+        start=0.120, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
         source=_SEARCH,
     ),
     _parameter(
         "a2", "a_2", "slope of the motor neuron of the knee",
-        start=0.081, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
+        start=0.055, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
         source=_SEARCH,
     ),
     _parameter(
         "b1", "b_1", "offset of the motor neuron of the hip",
-        start=-0.111, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
+        start=-0.065, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
         equation="4", source=_SEARCH,
     ),
     _parameter(
         "b2", "b_2", "offset of the motor neuron of the knee",
-        start=-0.039, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
+        start=-0.195, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
         equation="4", source=_SEARCH,
     ),
     _parameter(
@@ -128,7 +130,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "B_f", "B_f", "learning rate of the fast learner",
-        start=0.0435, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
+        start=0.049, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
         source=_SEARCH,
     ),
     _parameter(
@@ -137,7 +139,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "B_s", "B_s", "learning rate of the slow learner",
-        start=0.0004, paper=0.0002, unit="1", min=0.0, max=1.0, nominal=0.001, equation="8",
+        start=0.0044, paper=0.0002, unit="1", min=0.0, max=1.0, nominal=0.001, equation="8",
         source=_SEARCH,
     ),
     _parameter(
@@ -155,7 +157,8 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "phase_filter", "", "new part per tick in the low-pass of the vector phase measure",
-        start=0.05, unit="1", min=1e-4, max=1.0, nominal=0.1, equation="12", source="authors' code",
+        start=0.02, paper=0.05, unit="1", min=1e-4, max=1.0, nominal=0.1, equation="12",
+        source="chosen; at the authors' 0.05 phases sway by more than sigma at MI < 0.08",
     ),
     _parameter(
         "N", "N", "ticks in the mean of the relative phases", type=Type.integer,
@@ -172,17 +175,17 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "kappa_hold", "", "ticks that d stays at or below sigma before kappa switches on",
-        type=Type.integer, start=300, min=1, max=1_000_000, equation="16", source=_SEARCH,
+        type=Type.integer, start=80, min=1, max=1_000_000, equation="16", source=_SEARCH,
     ),
     _parameter(
         "xi", "xi", "gain of the neural communication",
-        start=0.0246, paper=0.01, unit="1", min=0.0, max=1.0, nominal=0.01, equation="17",
+        start=0.021, paper=0.01, unit="1", min=0.0, max=1.0, nominal=0.01, equation="17",
         source=_SEARCH,
     ),
     _parameter(
         "feedback_kept", "", "share of the sensory feedback that stays while the couplings are on; "
         "1 as in the equations",
-        start=0.4, paper=1.0, unit="1", min=0.0, max=1.0, nominal=1.0, equation="5",
+        start=0.3, paper=1.0, unit="1", min=0.0, max=1.0, nominal=1.0, equation="5",
         source="sections 3.2.1 and 4.3 let gamma become small once the couplings are on",
     ),
     _parameter(

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from html import escape
 from typing import Any, Final
 
 import numpy as np
 
 from apnc_studies.formation_table import grouped, numbers
 from apnc_studies.report.theme import BLUE, GREEN, GREY, GRID, INK, ORANGE, PURPLE, VERMILLION
+from apnc_studies.svg import line, text, upright
 
 WIDTH: Final = 900
 LEFT, RIGHT = 64, 18
@@ -75,13 +75,13 @@ def _frame(mis: Sequence[float], top: float) -> list[str]:
     for panel, limit, step, unit in ((UPPER, top, 5.0, "{:.0f}"), (LOWER, 100.0, 50.0, "{:.0f} %")):
         for value in np.arange(0.0, limit + 1e-9, step):
             y = _y(float(value), limit, panel)
-            parts.append(_line(LEFT, y, WIDTH - RIGHT, y, GRID))
-            parts.append(_text(LEFT - 8, y + 4, unit.format(value), "end"))
+            parts.append(line(LEFT, y, WIDTH - RIGHT, y, GRID))
+            parts.append(text(LEFT - 8, y + 4, unit.format(value), "end"))
     for mi in mis:
-        parts.append(_text(_x(mis, mi), LOWER[1] + 20, f"{mi:.2f}"))
-    parts.append(_text(WIDTH / 2, LOWER[1] + 44, "modulatory input MI [1]"))
-    parts.append(_upright(18, sum(UPPER) / 2, "strict convergence time [s]"))
-    parts.append(_upright(18, sum(LOWER) / 2, "success"))
+        parts.append(text(_x(mis, mi), LOWER[1] + 20, f"{mi:.2f}"))
+    parts.append(text(WIDTH / 2, LOWER[1] + 44, "modulatory input MI [1]"))
+    parts.append(upright(18, sum(UPPER) / 2, "strict convergence time [s]"))
+    parts.append(upright(18, sum(LOWER) / 2, "success"))
     return parts
 
 
@@ -94,12 +94,12 @@ def _box(x: float, values: list[float], top: float, colour: str, width: float) -
     y = {v: _y(v, top, UPPER) for v in (low, middle, high, min(inside), max(inside))}
     half = width / 2.0
     parts = [
-        _line(x, y[min(inside)], x, y[low], colour),
-        _line(x, y[high], x, y[max(inside)], colour),
+        line(x, y[min(inside)], x, y[low], colour),
+        line(x, y[high], x, y[max(inside)], colour),
         f'<rect x="{x - half:.1f}" y="{y[high]:.1f}" width="{width:.1f}" '
         f'height="{max(1.0, y[low] - y[high]):.1f}" fill="{colour}" fill-opacity="0.3" '
         f'stroke="{colour}"/>',
-        _line(x - half, y[middle], x + half, y[middle], colour, 2.5),
+        line(x - half, y[middle], x + half, y[middle], colour, 2.5),
     ]
     beyond = [v for v in values if not low - reach <= v <= high + reach]
     return parts + [
@@ -125,28 +125,10 @@ def _legend(methods: Sequence[str]) -> list[str]:
             f'<rect x="{x:.0f}" y="20" width="16" height="12" fill="{colour}" fill-opacity="0.3" '
             f'stroke="{colour}"/>'
         )
-        parts.append(_text(x + 22, 30, method, "start"))
+        parts.append(text(x + 22, 30, method, "start"))
         x += 36.0 + 8.0 * len(method)
     parts.append(f'<circle cx="{x + 24:.0f}" cy="26" r="3.5" fill="{GREY}"/>')
-    parts.append(_text(x + 34, 30, "success, strict criterion", "start"))
+    parts.append(text(x + 34, 30, "success, strict criterion", "start"))
     parts.append(f'<circle cx="{x + 204:.0f}" cy="26" r="6" fill="none" stroke="{GREY}"/>')
-    parts.append(_text(x + 216, 30, "success, authors' criterion", "start"))
+    parts.append(text(x + 216, 30, "success, authors' criterion", "start"))
     return parts
-
-
-def _line(x1: float, y1: float, x2: float, y2: float, colour: str, width: float = 1.0) -> str:
-    return (
-        f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" '
-        f'stroke="{colour}" stroke-width="{width:g}"/>'
-    )
-
-
-def _text(x: float, y: float, text: str, anchor: str = "middle") -> str:
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{escape(text)}</text>'
-
-
-def _upright(x: float, y: float, text: str) -> str:
-    return (
-        f'<text transform="translate({x:.0f},{y:.0f}) rotate(-90)" text-anchor="middle">'
-        f"{escape(text)}</text>"
-    )

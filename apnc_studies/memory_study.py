@@ -11,6 +11,7 @@ import numpy as np
 
 from apnc_studies.formation_study import fingerprint
 from apnc_studies.formation_table import numbers, success_interval
+from apnc_studies.memory_picture import memory_svg
 from apnc_studies.scenarios import judge, run_scenario
 from apnc_studies.trial_table import Progress, Row, run_trials
 from build_fmu.build import host_fmu
@@ -50,7 +51,7 @@ def run_memory(
     resume: bool = False,
     stop: Callable[[], bool] = lambda: False,
 ) -> Path:
-    """Run the study and write ``memory.csv`` and ``memory.md``.
+    """Run the study and write ``memory.csv``, ``memory.md`` and, of seed 0, ``memory.svg``.
 
     Args:
         output: folder for the files, made if missing.
@@ -73,11 +74,14 @@ def run_memory(
     trials = [MemoryTrial(anc, seed, known) for anc in (1, 0) for seed in range(seeds)]
     output.mkdir(parents=True, exist_ok=True)
     path = output / "memory.csv"
-    host_fmu()  # built once here, not by every process at the same time
+    fmu = host_fmu()  # built once here, not by every process at the same time
     rows = run_trials(
         trials, run_trial, _key, path, workers=workers, resume=resume, progress=progress, stop=stop
     )
     (output / "memory.md").write_text(memory_markdown(rows), encoding="utf-8")
+    if not stop():
+        picture = memory_svg(run_scenario(fmu, 0, True), run_scenario(fmu, 0, False))
+        (output / "memory.svg").write_text(picture, encoding="utf-8")
     return path
 
 

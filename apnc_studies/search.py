@@ -71,14 +71,14 @@ KNOBS: Final = (
     Knob("B_f", 0.015, 0.1, 0.0435, log=True),
     Knob("B_s", 1e-4, 8e-3, 4e-4, log=True),
     Knob("xi", 0.01, 0.045, 0.0246, log=True),
-    Knob("trunk.com_x", -0.012, 0.025, 0.009),
-    Knob("trunk.com_z", -0.01, 0.02, 0.003),
+    Knob("trunk.com_x", 0.0, 0.015, 0.009),
+    Knob("trunk.com_z", -0.005, 0.02, 0.003),
     Knob("servo.stiffness", 5.0, 40.0, 19.8, log=True),
     Knob("servo.damping", 0.2, 1.5, 0.71, log=True),
     Knob("servo.reflected_inertia", 0.005, 0.02, 0.01, log=True),
     Knob("contact.stiffness", 5e3, 6e4, 23.4e3, log=True),
     Knob("contact.damping", 60.0, 800.0, 500.0, log=True),
-    Knob("sensor.delay", 0.0, 0.06, 0.05),
+    Knob("sensor.delay", 0.025, 0.07, 0.05),
 )
 
 Candidate = Mapping[str, float]
