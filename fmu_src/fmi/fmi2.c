@@ -16,20 +16,12 @@ typedef struct {
     fmi2CallbackFunctions callbacks;
 } fmu;
 
-/* Phases in which a function may be called. */
-#define ANY      (APNC_INSTANTIATED | APNC_INITIALIZATION | APNC_STEPPING | APNC_TERMINATED)
-#define READABLE (APNC_INITIALIZATION | APNC_STEPPING | APNC_TERMINATED)
-#define WRITABLE (APNC_INSTANTIATED | APNC_INITIALIZATION | APNC_STEPPING)
-
 static fmi2Status fail(fmu *f, const char *function, const char *why) {
-    return (fmi2Status)apnc_report(&f->base, APNC_ERROR, APNC_LOG_ERROR, "%s: %s", function, why);
+    return (fmi2Status)apnc_refuse(&f->base, function, why);
 }
 
 static int allowed(fmu *f, int phases, const char *function) {
-    if (!f) return 0;
-    if (f->base.run.phase & phases) return 1;
-    fail(f, function, "not allowed in this state of the FMU");
-    return 0;
+    return apnc_allowed((apnc_instance *)f, phases, function);
 }
 
 static void emit(apnc_instance *instance, apnc_status status, apnc_log category,
@@ -58,19 +50,9 @@ const char *fmi2GetVersion(void) { return fmi2Version; }
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nCategories,
                                const fmi2String categories[]) {
-    fmu *f = (fmu *)c;
-    int chosen[APNC_LOG_CATEGORIES] = {0};
-    if (!allowed(f, ANY, "fmi2SetDebugLogging")) return fmi2Error;
-    if (nCategories && !categories) return fail(f, "fmi2SetDebugLogging", "categories is NULL");
-    for (size_t i = 0; i < nCategories; i++) {
-        int known = 0;
-        for (int k = 0; categories[i] && k < APNC_LOG_CATEGORIES; k++)
-            if (strcmp(categories[i], apnc_log_names[k]) == 0) known = chosen[k] = 1;
-        if (!known) return fail(f, "fmi2SetDebugLogging", "a category is not of this FMU");
-    }
-    for (int k = 0; k < APNC_LOG_CATEGORIES; k++)
-        f->base.logging[k] = loggingOn && (nCategories == 0 || chosen[k]);
-    return fmi2OK;
+    if (!allowed((fmu *)c, APNC_ANY, "fmi2SetDebugLogging")) return fmi2Error;
+    return (fmi2Status)apnc_choose_logging((apnc_instance *)c, "fmi2SetDebugLogging", loggingOn,
+                                           nCategories, categories);
 }
 
 /* Why an instance cannot be made, or NULL. */
@@ -157,7 +139,7 @@ fmi2Status fmi2Terminate(fmi2Component c) {
 
 fmi2Status fmi2Reset(fmi2Component c) {
     fmu *f = (fmu *)c;
-    if (!allowed(f, ANY, "fmi2Reset")) return fmi2Error;
+    if (!allowed(f, APNC_ANY, "fmi2Reset")) return fmi2Error;
     apnc_run_clear(&f->base.run);
     return fmi2OK;
 }
@@ -173,7 +155,7 @@ static fmi2Status access(fmu *f, int phases, const char *function, const fmi2Val
 #define GETTER(function, fmi_type, type)                                                           \
     fmi2Status function(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,                \
                         fmi_type value[]) {                                                        \
-        fmi2Status status = access((fmu *)c, READABLE, #function, vr, nvr, value);                 \
+        fmi2Status status = access((fmu *)c, APNC_READABLE, #function, vr, nvr, value);            \
         for (size_t i = 0; i < nvr && status == fmi2OK; i++)                                       \
             status = (fmi2Status)apnc_get((apnc_instance *)c, vr[i], type, &value[i]);             \
         return status;                                                                             \
@@ -182,7 +164,7 @@ static fmi2Status access(fmu *f, int phases, const char *function, const fmi2Val
 #define SETTER(function, fmi_type, type)                                                           \
     fmi2Status function(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,                \
                         const fmi_type value[]) {                                                  \
-        fmi2Status status = access((fmu *)c, WRITABLE, #function, vr, nvr, value);                 \
+        fmi2Status status = access((fmu *)c, APNC_WRITABLE, #function, vr, nvr, value);            \
         for (size_t i = 0; i < nvr && status == fmi2OK; i++)                                       \
             status = (fmi2Status)apnc_set((apnc_instance *)c, vr[i], type, &value[i]);             \
         return status;                                                                             \
@@ -204,19 +186,19 @@ fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t 
                          fmi2String value[]) {
     (void)vr;
     (void)value;
-    return no_strings((fmu *)c, READABLE, "fmi2GetString", nvr);
+    return no_strings((fmu *)c, APNC_READABLE, "fmi2GetString", nvr);
 }
 
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
                          const fmi2String value[]) {
     (void)vr;
     (void)value;
-    return no_strings((fmu *)c, WRITABLE, "fmi2SetString", nvr);
+    return no_strings((fmu *)c, APNC_WRITABLE, "fmi2SetString", nvr);
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
     fmu *f = (fmu *)c;
-    if (!allowed(f, ANY, "fmi2GetFMUstate")) return fmi2Error;
+    if (!allowed(f, APNC_ANY, "fmi2GetFMUstate")) return fmi2Error;
     if (!FMUstate) return fail(f, "fmi2GetFMUstate", "FMUstate is NULL");
     if (!*FMUstate) *FMUstate = allocate(&f->callbacks, sizeof(apnc_run));
     if (!*FMUstate) return fail(f, "fmi2GetFMUstate", "out of memory");
@@ -226,7 +208,7 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
 
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) {
     fmu *f = (fmu *)c;
-    if (!allowed(f, ANY, "fmi2SetFMUstate")) return fmi2Error;
+    if (!allowed(f, APNC_ANY, "fmi2SetFMUstate")) return fmi2Error;
     if (!FMUstate) return fail(f, "fmi2SetFMUstate", "FMUstate is NULL");
     memcpy(&f->base.run, FMUstate, sizeof(apnc_run));
     return fmi2OK;
@@ -234,7 +216,7 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) {
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
     fmu *f = (fmu *)c;
-    if (!allowed(f, ANY, "fmi2FreeFMUstate")) return fmi2Error;
+    if (!allowed(f, APNC_ANY, "fmi2FreeFMUstate")) return fmi2Error;
     if (!FMUstate || !*FMUstate) return fmi2OK;
     release(&f->callbacks, *FMUstate);
     *FMUstate = NULL;
@@ -243,7 +225,7 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size) {
     fmu *f = (fmu *)c;
-    if (!allowed(f, ANY, "fmi2SerializedFMUstateSize")) return fmi2Error;
+    if (!allowed(f, APNC_ANY, "fmi2SerializedFMUstateSize")) return fmi2Error;
     if (!FMUstate || !size) return fail(f, "fmi2SerializedFMUstateSize", "a pointer is NULL");
     *size = apnc_blob_size();
     return fmi2OK;
@@ -252,7 +234,7 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, si
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte serializedState[],
                                  size_t size) {
     fmu *f = (fmu *)c;
-    if (!allowed(f, ANY, "fmi2SerializeFMUstate")) return fmi2Error;
+    if (!allowed(f, APNC_ANY, "fmi2SerializeFMUstate")) return fmi2Error;
     if (!FMUstate || !serializedState) return fail(f, "fmi2SerializeFMUstate", "a pointer is NULL");
     if (size < apnc_blob_size()) return fail(f, "fmi2SerializeFMUstate", "buffer is too small");
     apnc_blob_write((const apnc_run *)FMUstate, (unsigned char *)serializedState);
@@ -263,7 +245,7 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedSta
                                    fmi2FMUstate *FMUstate) {
     fmu *f = (fmu *)c;
     apnc_run run;
-    if (!allowed(f, ANY, "fmi2DeSerializeFMUstate")) return fmi2Error;
+    if (!allowed(f, APNC_ANY, "fmi2DeSerializeFMUstate")) return fmi2Error;
     if (!serializedState || !FMUstate)
         return fail(f, "fmi2DeSerializeFMUstate", "a pointer is NULL");
     if (apnc_blob_read(&f->base, (const unsigned char *)serializedState, size, &run) != APNC_OK)

@@ -19,20 +19,12 @@ typedef struct {
     fmi3LogMessageCallback log_message;
 } fmu;
 
-/* Phases in which a function may be called. */
-#define ANY      (APNC_INSTANTIATED | APNC_INITIALIZATION | APNC_STEPPING | APNC_TERMINATED)
-#define READABLE (APNC_INITIALIZATION | APNC_STEPPING | APNC_TERMINATED)
-#define WRITABLE (APNC_INSTANTIATED | APNC_INITIALIZATION | APNC_STEPPING)
-
 static fmi3Status fail(fmu *f, const char *function, const char *why) {
-    return (fmi3Status)apnc_report(&f->base, APNC_ERROR, APNC_LOG_ERROR, "%s: %s", function, why);
+    return (fmi3Status)apnc_refuse(&f->base, function, why);
 }
 
 static int allowed(fmu *f, int phases, const char *function) {
-    if (!f) return 0;
-    if (f->base.run.phase & phases) return 1;
-    fail(f, function, "not allowed in this state of the FMU");
-    return 0;
+    return apnc_allowed((apnc_instance *)f, phases, function);
 }
 
 static void emit(apnc_instance *instance, apnc_status status, apnc_log category,
@@ -45,19 +37,9 @@ const char *fmi3GetVersion(void) { return fmi3Version; }
 
 fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, size_t nCategories,
                                const fmi3String categories[]) {
-    fmu *f = (fmu *)instance;
-    int chosen[APNC_LOG_CATEGORIES] = {0};
-    if (!allowed(f, ANY, "fmi3SetDebugLogging")) return fmi3Error;
-    if (nCategories && !categories) return fail(f, "fmi3SetDebugLogging", "categories is NULL");
-    for (size_t i = 0; i < nCategories; i++) {
-        int known = 0;
-        for (int k = 0; categories[i] && k < APNC_LOG_CATEGORIES; k++)
-            if (strcmp(categories[i], apnc_log_names[k]) == 0) known = chosen[k] = 1;
-        if (!known) return fail(f, "fmi3SetDebugLogging", "a category is not of this FMU");
-    }
-    for (int k = 0; k < APNC_LOG_CATEGORIES; k++)
-        f->base.logging[k] = loggingOn && (nCategories == 0 || chosen[k]);
-    return fmi3OK;
+    if (!allowed((fmu *)instance, APNC_ANY, "fmi3SetDebugLogging")) return fmi3Error;
+    return (fmi3Status)apnc_choose_logging((apnc_instance *)instance, "fmi3SetDebugLogging",
+                                           loggingOn, nCategories, categories);
 }
 
 fmi3Instance fmi3InstantiateCoSimulation(
@@ -125,7 +107,7 @@ fmi3Status fmi3Terminate(fmi3Instance instance) {
 
 fmi3Status fmi3Reset(fmi3Instance instance) {
     fmu *f = (fmu *)instance;
-    if (!allowed(f, ANY, "fmi3Reset")) return fmi3Error;
+    if (!allowed(f, APNC_ANY, "fmi3Reset")) return fmi3Error;
     apnc_run_clear(&f->base.run);
     return fmi3OK;
 }
@@ -169,7 +151,7 @@ static fmi3Status check_access(fmu *f, int phases, const char *function,
     fmi3Status name(fmi3Instance instance, const fmi3ValueReference vr[], size_t nvr,              \
                     fmi_type values[], size_t nValues) {                                           \
         fmu *f = (fmu *)instance;                                                                  \
-        fmi3Status status = check_access(f, READABLE, #name, vr, nvr, values);                     \
+        fmi3Status status = check_access(f, APNC_READABLE, #name, vr, nvr, values);                \
         EACH_VALUE(#name, type, {                                                                  \
             c_type value;                                                                          \
             status = (fmi3Status)apnc_get(&f->base, at, type, &value);                             \
@@ -181,7 +163,7 @@ static fmi3Status check_access(fmu *f, int phases, const char *function,
     fmi3Status name(fmi3Instance instance, const fmi3ValueReference vr[], size_t nvr,              \
                     const fmi_type values[], size_t nValues) {                                     \
         fmu *f = (fmu *)instance;                                                                  \
-        fmi3Status status = check_access(f, WRITABLE, #name, vr, nvr, values);                     \
+        fmi3Status status = check_access(f, APNC_WRITABLE, #name, vr, nvr, values);                \
         EACH_VALUE(#name, type, {                                                                  \
             const c_type value = converted(values[next]);                                          \
             status = (fmi3Status)apnc_set(&f->base, at, type, &value);                             \
@@ -208,7 +190,7 @@ SETTER(fmi3SetBoolean, fmi3Boolean, int32_t, APNC_BOOLEAN, as_flag)
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], size_t nvr,
                           fmi3Float64 values[], size_t nValues) {
     fmu *f = (fmu *)instance;
-    fmi3Status status = check_access(f, READABLE, "fmi3GetFloat64", vr, nvr, values);
+    fmi3Status status = check_access(f, APNC_READABLE, "fmi3GetFloat64", vr, nvr, values);
     EACH_VALUE("fmi3GetFloat64", APNC_REAL, {
         if (at == APNC_VR_TIME)
             values[next] = f->base.run.time;
@@ -219,7 +201,7 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], 
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
     fmu *f = (fmu *)instance;
-    if (!allowed(f, ANY, "fmi3GetFMUState")) return fmi3Error;
+    if (!allowed(f, APNC_ANY, "fmi3GetFMUState")) return fmi3Error;
     if (!FMUState) return fail(f, "fmi3GetFMUState", "FMUState is NULL");
     if (!*FMUState) *FMUState = malloc(sizeof(apnc_run));
     if (!*FMUState) return fail(f, "fmi3GetFMUState", "out of memory");
@@ -229,7 +211,7 @@ fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
 
 fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
     fmu *f = (fmu *)instance;
-    if (!allowed(f, ANY, "fmi3SetFMUState")) return fmi3Error;
+    if (!allowed(f, APNC_ANY, "fmi3SetFMUState")) return fmi3Error;
     if (!FMUState) return fail(f, "fmi3SetFMUState", "FMUState is NULL");
     memcpy(&f->base.run, FMUState, sizeof(apnc_run));
     return fmi3OK;
@@ -237,7 +219,7 @@ fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
 
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
     fmu *f = (fmu *)instance;
-    if (!allowed(f, ANY, "fmi3FreeFMUState")) return fmi3Error;
+    if (!allowed(f, APNC_ANY, "fmi3FreeFMUState")) return fmi3Error;
     if (!FMUState) return fmi3OK;
     free(*FMUState);
     *FMUState = NULL;
@@ -246,7 +228,7 @@ fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUState, size_t *size) {
     fmu *f = (fmu *)instance;
-    if (!allowed(f, ANY, "fmi3SerializedFMUStateSize")) return fmi3Error;
+    if (!allowed(f, APNC_ANY, "fmi3SerializedFMUStateSize")) return fmi3Error;
     if (!FMUState || !size) return fail(f, "fmi3SerializedFMUStateSize", "a pointer is NULL");
     *size = apnc_blob_size();
     return fmi3OK;
@@ -255,7 +237,7 @@ fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUSta
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState,
                                  fmi3Byte serializedState[], size_t size) {
     fmu *f = (fmu *)instance;
-    if (!allowed(f, ANY, "fmi3SerializeFMUState")) return fmi3Error;
+    if (!allowed(f, APNC_ANY, "fmi3SerializeFMUState")) return fmi3Error;
     if (!FMUState || !serializedState) return fail(f, "fmi3SerializeFMUState", "a pointer is NULL");
     if (size < apnc_blob_size()) return fail(f, "fmi3SerializeFMUState", "buffer is too small");
     apnc_blob_write((const apnc_run *)FMUState, serializedState);
@@ -266,7 +248,7 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte seriali
                                    size_t size, fmi3FMUState *FMUState) {
     fmu *f = (fmu *)instance;
     apnc_run run;
-    if (!allowed(f, ANY, "fmi3DeserializeFMUState")) return fmi3Error;
+    if (!allowed(f, APNC_ANY, "fmi3DeserializeFMUState")) return fmi3Error;
     if (!serializedState || !FMUState)
         return fail(f, "fmi3DeserializeFMUState", "a pointer is NULL");
     if (apnc_blob_read(&f->base, serializedState, size, &run) != APNC_OK) return fmi3Error;

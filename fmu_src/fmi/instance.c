@@ -29,6 +29,32 @@ apnc_status apnc_report(apnc_instance *instance, apnc_status status, apnc_log ca
     return status;
 }
 
+apnc_status apnc_refuse(apnc_instance *instance, const char *function, const char *why) {
+    return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "%s: %s", function, why);
+}
+
+int apnc_allowed(apnc_instance *instance, int phases, const char *function) {
+    if (!instance) return 0;
+    if (instance->run.phase & phases) return 1;
+    apnc_refuse(instance, function, "not allowed in this state of the FMU");
+    return 0;
+}
+
+apnc_status apnc_choose_logging(apnc_instance *instance, const char *function, int on, size_t n,
+                                const char *const categories[]) {
+    int chosen[APNC_LOG_CATEGORIES] = {0};
+    if (n && !categories) return apnc_refuse(instance, function, "categories is NULL");
+    for (size_t i = 0; i < n; i++) {
+        int known = 0;
+        for (int k = 0; categories[i] && k < APNC_LOG_CATEGORIES; k++)
+            if (strcmp(categories[i], apnc_log_names[k]) == 0) known = chosen[k] = 1;
+        if (!known) return apnc_refuse(instance, function, "a category is not of this FMU");
+    }
+    for (int k = 0; k < APNC_LOG_CATEGORIES; k++)
+        instance->logging[k] = on && (n == 0 || chosen[k]);
+    return APNC_OK;
+}
+
 void apnc_run_clear(apnc_run *run) {
     memset(run, 0, sizeof *run);
     apnc_defaults(&run->data);

@@ -23,6 +23,11 @@ typedef enum {
     APNC_TERMINATED = 8
 } apnc_phase;
 
+/* Phases in which a function may be called. */
+#define APNC_ANY      (APNC_INSTANTIATED | APNC_INITIALIZATION | APNC_STEPPING | APNC_TERMINATED)
+#define APNC_READABLE (APNC_INITIALIZATION | APNC_STEPPING | APNC_TERMINATED)
+#define APNC_WRITABLE (APNC_INSTANTIATED | APNC_INITIALIZATION | APNC_STEPPING)
+
 /* All that a saved state holds: plain data, no pointers. */
 typedef struct {
     apnc_data data;
@@ -49,6 +54,16 @@ apnc_status apnc_report(apnc_instance *instance, apnc_status status, apnc_log ca
     __attribute__((format(printf, 4, 5)))
 #endif
     ;
+
+/* Log why a function refuses. */
+apnc_status apnc_refuse(apnc_instance *instance, const char *function, const char *why);
+
+/* Whether the instance is in one of the phases; logs if not. NULL is in none. */
+int apnc_allowed(apnc_instance *instance, int phases, const char *function);
+
+/* Switch the named categories, or all of them if none is named. */
+apnc_status apnc_choose_logging(apnc_instance *instance, const char *function, int on, size_t n,
+                                const char *const categories[]);
 
 /* Values as after instantiation. */
 void apnc_run_clear(apnc_run *run);
