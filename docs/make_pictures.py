@@ -1,0 +1,55 @@
+"""Save every figure of an evaluation report as SVG, drawn by headless Chromium.
+
+    python docs/make_pictures.py apnc-study-all/report.html docs/pictures
+"""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync",
+         "--virtual-time-budget=60000", "--window-size=1200,900", "--dump-dom")  # fmt: skip
+COLLECT = """<script>
+window.addEventListener("load", async () => {
+  const pictures = {};
+  for (const plot of document.querySelectorAll(".js-plotly-plot")) {
+    const url = await Plotly.toImage(plot, { format: "svg", width: 1000, height: plot.offsetHeight });
+    pictures[plot.id] = decodeURIComponent(url.slice(url.indexOf(",") + 1));
+  }
+  const box = document.createElement("pre");
+  box.id = "pictures";
+  box.textContent = JSON.stringify(pictures);
+  document.body.append(box);
+});
+</script>"""
+
+
+def main(report: Path, folder: Path) -> None:
+    """Write ``evaluation-<figure>.svg`` files into ``folder``."""
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
+    if chromium is None:
+        sys.exit("no chromium binary found")
+    with tempfile.TemporaryDirectory() as temporary:
+        page = Path(temporary) / "page.html"
+        text = report.read_text(encoding="utf-8")
+        page.write_text(text.replace("</body>", COLLECT + "</body>"), encoding="utf-8")
+        command = [chromium, *FLAGS, f"--user-data-dir={temporary}/profile", page.as_uri()]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+    found = re.search(r'<pre id="pictures">(.*?)</pre>', done.stdout, re.DOTALL)
+    if found is None:
+        sys.exit("the report did not finish drawing")
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, picture in json.loads(html.unescape(found[1])).items():
+        (folder / f"evaluation-{name}.svg").write_text(picture, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), Path(sys.argv[2]))
