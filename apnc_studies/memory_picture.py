@@ -74,11 +74,11 @@ def _states(when: Timeline, top: float) -> list[str]:
 
 
 def _curve(record: Record, when: Timeline, values: Array, colour: str) -> str:
-    """A curve through y-values in px; it is interrupted where they are not a number."""
+    """A curve through the y-values in px of every second sample."""
     return path(
         [
             (_x(float(t), when), float(y))
-            for t, y in zip(record.time[::_EVERY], values[::_EVERY], strict=True)
+            for t, y in zip(record.time[::_EVERY], values, strict=True)
         ],
         colour,
     )
@@ -89,7 +89,8 @@ def _outputs(record: Record, when: Timeline, top: float) -> list[str]:
     for leg, (name, colour) in enumerate(leg_colours(record.legs).items()):
         middle = top + 30 + 26.0 * leg
         parts.append(text(LEFT - 8, middle + 4, name, "end"))
-        parts.append(_curve(record, when, middle - 11.0 * record.controller["o1"][:, leg], colour))
+        o1 = record.controller["o1"][::_EVERY, leg]
+        parts.append(_curve(record, when, middle - 11.0 * o1, colour))
     return parts
 
 
@@ -106,7 +107,9 @@ def _phases(record: Record, when: Timeline, top: float) -> list[str]:
     shown = metrics.wrap_for_display(metrics.relative_phases(o1, o2))
     stopped = (record.time >= when.stopped) & (record.time < when.restarted)
     shown[stopped] = np.nan  # four oscillators at rest have no phase
+    shown = shown[::_EVERY]
     for k, colour in enumerate((ORANGE, GREEN, PURPLE)):
+        # a jump is the cut of the display, not motion
         cut = np.abs(np.diff(shown[:, k], prepend=shown[0, k])) > np.pi
         parts.append(_curve(record, when, y(np.where(cut, np.nan, shown[:, k])), colour))
     return parts

@@ -73,7 +73,7 @@ def test_at_rest_the_sensor_delivers_the_load() -> None:
 
 
 def test_the_load_arrives_late_and_smoothed() -> None:
-    quiet = replace(ROBOT, sensor=replace(ROBOT.sensor, noise=0.0))
+    quiet = replace(ROBOT, sensor=replace(ROBOT.sensor, noise=0.0, delay=0.05))
     plant = Plant(quiet)
     loads, readings = [np.zeros(4)] * 3, []
     for tick in range(60):
@@ -137,7 +137,7 @@ def chatter(forces: np.ndarray) -> float:
 
 def test_walking_feet_do_not_chatter_stick_to_the_ground_or_leave_the_friction_cone() -> None:
     forces = forces_while_walking(ROBOT, PlantOptions().step)
-    assert chatter(forces) < 0.01
+    assert chatter(forces) < 0.02
     assert forces[:, :, 2].min() == 0.0
     loaded = forces[:, :, 2] > 1.0
     tangential = np.hypot(forces[:, :, 0], forces[:, :, 1])[loaded]
