@@ -85,7 +85,7 @@ class Parameters:
     N: int = 50
     sigma: float = 0.4
     kappa_rule: KappaRule = KappaRule.armed
-    kappa_hold: int = 80
+    kappa_hold: int = 100
     xi: float = 0.021
     feedback_kept: float = 0.3
     coupling_sign: CouplingSign = CouplingSign.reversed

@@ -175,7 +175,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "kappa_hold", "", "ticks that d stays at or below sigma before kappa switches on",
-        type=Type.integer, start=80, min=1, max=1_000_000, equation="16", source=_SEARCH,
+        type=Type.integer, start=100, min=1, max=1_000_000, equation="16", source=_SEARCH,
     ),
     _parameter(
         "xi", "xi", "gain of the neural communication",

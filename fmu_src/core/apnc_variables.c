@@ -42,7 +42,7 @@ const apnc_row apnc_rows[APNC_ROWS] = {
     {"N", "N", "", AT(parameters, N), 1, APNC_INTEGER, APNC_FIXED, 50.0, 1.0, 256.0},
     {"sigma", "sigma", "", AT(parameters, sigma), 1, APNC_REAL, APNC_TUNABLE, 0.4, 0.0, 10.0},
     {"kappa_rule", "kappa_rule", "", AT(parameters, kappa_rule), 1, APNC_ENUMERATION, APNC_TUNABLE, 1.0, 1.0, 2.0},
-    {"kappa_hold", "kappa_hold", "", AT(parameters, kappa_hold), 1, APNC_INTEGER, APNC_TUNABLE, 80.0, 1.0, 1000000.0},
+    {"kappa_hold", "kappa_hold", "", AT(parameters, kappa_hold), 1, APNC_INTEGER, APNC_TUNABLE, 100.0, 1.0, 1000000.0},
     {"xi", "xi", "", AT(parameters, xi), 1, APNC_REAL, APNC_TUNABLE, 0.021, 0.0, 1.0},
     {"feedback_kept", "feedback_kept", "", AT(parameters, feedback_kept), 1, APNC_REAL, APNC_TUNABLE, 0.3, 0.0, 1.0},
     {"coupling_sign", "coupling_sign", "", AT(parameters, coupling_sign), 1, APNC_ENUMERATION, APNC_TUNABLE, 1.0, 1.0, 2.0},
