@@ -107,7 +107,7 @@ def _trend(column: str, axis: str, sign: int, methods: Sequence[str], name: str)
                 for r in rows
                 if r["method"] == method and finite(r.get(column))
             ]
-            if len(pairs) < 3 or len({y for _, y in pairs}) < 2:
+            if len(pairs) < 3 or min(len(set(column)) for column in zip(*pairs, strict=True)) < 2:
                 texts.append(f"{method}: too few")
                 continue
             test = stats.spearmanr(*zip(*pairs, strict=True))
