@@ -1,6 +1,6 @@
 """Save every figure of an evaluation report as SVG, drawn by headless Chromium.
 
-    python docs/make_pictures.py apnc-study-all/report.html docs/pictures
+python docs/make_pictures.py apnc-study-all/report.html docs/pictures
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ COLLECT = """<script>
 window.addEventListener("load", async () => {
   const pictures = {};
   for (const plot of document.querySelectorAll(".js-plotly-plot")) {
-    const url = await Plotly.toImage(plot, { format: "svg", width: 1000, height: plot.offsetHeight });
+    const size = { format: "svg", width: 1000, height: plot.offsetHeight };
+    const url = await Plotly.toImage(plot, size);
     pictures[plot.id] = decodeURIComponent(url.slice(url.indexOf(",") + 1));
   }
   const box = document.createElement("pre");

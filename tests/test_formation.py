@@ -1,14 +1,13 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from jobs import JOBS, number_of, square
 
 from apnc_studies import metrics
 from apnc_studies.formation_picture import formation_svg
@@ -192,24 +191,6 @@ def test_picture_shows_every_group() -> None:
 
 
 # --- table of trials ---------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Job:
-    number: int
-
-
-def square(job: Job) -> Row:
-    if job.number == 3:
-        raise RuntimeError("three, of all numbers")
-    return {"number": job.number, "square": job.number**2}
-
-
-def number_of(entries: Mapping[str, Any]) -> tuple[str, ...]:
-    return (str(entries["number"]),)
-
-
-JOBS = [Job(n) for n in (3, 1, 2, 5)]
 
 
 def test_trial_that_raises_is_a_row(tmp_path: Path) -> None:
