@@ -116,6 +116,7 @@ def _servo(table: Table) -> Servo:
         table.positive("no_load_speed"),
         table.nonnegative("reflected_inertia"),
         table.nonnegative("latency"),
+        table.nonnegative("slew_rate"),
     )
     table.close()
     return servo

@@ -124,6 +124,7 @@ class Plant:
         if own and (self._ground.slope or self._ground.roughness):
             raise ValueError("contact 'exudyn' knows level ground without obstacles only")
         self._forces = RobotForces(robot, self._ground, coordinates[BASE:], touches=not own)
+        self._commanded = coordinates[BASE:].reshape(-1, 3) * JOINT_SIGN
         self._coming: deque[tuple[float, Array]] = deque()
         # The container owns the system: without this reference Exudyn frees it under our feet.
         self._container = exu.SystemContainer()
@@ -186,6 +187,10 @@ class Plant:
         if not (math.isfinite(duration) and duration > 0.0):
             raise ValueError(f"duration is {duration}; allowed: a finite number above 0")
         targets[self._damaged] = 0.0
+        if self._robot.servo.slew_rate > 0.0:
+            reach = self._robot.servo.slew_rate * duration
+            targets = np.clip(targets, self._commanded - reach, self._commanded + reach)
+        self._commanded = targets
         self._coming.append((self.time + self._robot.servo.latency, targets * JOINT_SIGN))
         self._integrate_to(self.time + duration)
         self._measure()

@@ -148,6 +148,7 @@ class Servo:
         no_load_speed: speed at which no driving torque is left [rad/s].
         reflected_inertia: rotor inertia times the gear ratio squared [kg m^2].
         latency: age of a command when the servo starts to follow it [s].
+        slew_rate: fastest change of the command that the servo follows [rad/s]; 0 for no limit.
     """
 
     stiffness: float
@@ -156,6 +157,7 @@ class Servo:
     no_load_speed: float
     reflected_inertia: float
     latency: float = 0.0
+    slew_rate: float = 0.0
 
 
 @dataclass(frozen=True)

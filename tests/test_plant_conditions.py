@@ -197,3 +197,16 @@ def test_the_sensor_can_show_the_norm_of_the_force() -> None:
     np.testing.assert_allclose(readings["norm"], np.linalg.norm(force, axis=1), rtol=1e-12)
     np.testing.assert_allclose(readings["normal"], force[:, 2], rtol=1e-12)
     assert (readings["norm"] - readings["normal"]).max() > 0.01
+
+
+def test_a_slew_rate_limits_how_fast_a_command_moves() -> None:
+    slow = replace(ROBOT, servo=replace(ROBOT.servo, slew_rate=1.0))
+    limited, ramped = Plant(slow), Plant(ROBOT)
+    step = np.full(4, 0.2)
+    for tick in range(1, 25):
+        limited.advance(step, np.zeros(4), TICK)
+        ramped.advance(np.minimum(step, 1.0 * tick * TICK), np.zeros(4), TICK)
+        np.testing.assert_allclose(
+            limited.sample()["joint_angle"], ramped.sample()["joint_angle"], atol=1e-12
+        )
+    assert limited.sample()["joint_angle"][:, 1].min() > 0.1
