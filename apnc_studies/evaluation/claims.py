@@ -237,9 +237,11 @@ def _state(name: str, method: str) -> Check:
         speed = median(values(rows, f"state_speed_{name.lower()}", method=method))
         text = f"{hits}, speed {speed.text(3, 'm/s')}"
         if name == "S1":
-            text += f", formed after {median(values(rows, 'state_formation_time_s')).text(1, 's')}"
+            when = median(values(rows, "state_formation_time_s", method=method))
+            text += f", formed after {when.text(1, 's')}"
         if name == "S3" and method == "apnc":
-            text += f", back after {median(values(rows, 'state_recovery_time_s')).text(1, 's')}"
+            when = median(values(rows, "state_recovery_time_s", method=method))
+            text += f", back after {when.text(1, 's')}"
         return Finding(text, _verdict(hits.value == 1.0, hits.value >= 0.5))
 
     return check
