@@ -79,6 +79,5 @@ def _add(study: typer.Typer, name: str, about: str) -> None:
 def add_evaluation(study: typer.Typer) -> None:
     """Add one command per experiment of the paper, and ``all``."""
     for each in STUDIES.values():
-        if each.name != "memory":  # has a command of its own
-            _add(study, each.name, f"{each.title} ({each.place} of the paper).")
+        _add(study, each.name, f"{each.title} ({each.place} of the paper).")
     _add(study, "all", "All of the paper's experiments, one report.")

@@ -1,4 +1,4 @@
-"""The command line of the studies: ``apnc study contact``, ``formation`` and ``memory``."""
+"""The command line of the model's own studies: ``apnc study contact``, ``formation``, ``states``."""
 
 from __future__ import annotations
 
@@ -104,13 +104,13 @@ def formation_command(
     _finish(table, (folder / "formation.md").read_text(encoding="utf-8"), stop)
 
 
-@study.command("memory")
-def memory_command(
+@study.command("states")
+def states_command(
     trials: Trials = 20, workers: Workers = 2, output: Output = None, resume: Resume = False
 ) -> None:
-    """States S1 to S3, with and without the neural couplings (Fig. 9-12)."""
-    folder, stop = _folder(output, "memory"), StopRequest()
-    with stop.listening(), _bar("memory") as progress:
+    """States S1 to S3 in detail, with a picture of one run (Fig. 9-12)."""
+    folder, stop = _folder(output, "states"), StopRequest()
+    with stop.listening(), _bar("states") as progress:
         table = run_memory(folder, trials, workers, progress, resume=resume, stop=stop)
     _finish(table, (folder / "memory.md").read_text(encoding="utf-8"), stop)
 
