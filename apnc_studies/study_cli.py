@@ -1,4 +1,4 @@
-"""The command line of the model's own studies: ``apnc study contact``, ``formation``, ``states``."""
+"""The model's own studies on the command line: ``contact``, ``formation`` and ``states``."""
 
 from __future__ import annotations
 
