@@ -65,7 +65,7 @@ class NativeLoops:
         Raises:
             RuntimeError: a step failed.
         """
-        address = ctypes.cast(do_step, ctypes.c_void_p)  # type: ignore[arg-type]
+        address = ctypes.cast(do_step, ctypes.c_void_p)  # type: ignore[arg-type]  # any function
         begin = time.perf_counter_ns()
         status = self._library.bench_steps(address, component, t, h, n)
         spent = time.perf_counter_ns() - begin

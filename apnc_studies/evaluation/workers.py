@@ -58,7 +58,7 @@ class DaskWorkers:
 
     def rows(self, trials: Sequence[Trial], series: Path | None) -> Iterator[Row]:
         """Rows of all trials, as they finish; a lost worker's trials run elsewhere."""
-        from dask.distributed import as_completed  # noqa: PLC0415
+        from dask.distributed import as_completed  # noqa: PLC0415  # an extra
 
         futures = self.client.map(
             run_trial, trials, series=series, key=[t.key for t in trials], retries=3, pure=True
