@@ -118,7 +118,8 @@ class Controller:
         p, c = self.p, self.circuits
         self.MI = _limited("MI", inputs.MI, self.MI)
         self.turn = _limited("turn", inputs.turn, self.turn)
-        F, fault = load.normalise(np.asarray(inputs.grf, dtype=np.float64), p.robot_weight)
+        grf = np.asarray(inputs.grf, dtype=np.float64)
+        F, fault = load.normalise(grf, p.robot_weight, p.F_max)
         scale = motor_neurons.amplitude_scale(self.turn, self.n_legs, p)
         self.ticks += 1
         if inputs.reset or (p.MI_zero_resets and self.MI == 0.0):

@@ -22,6 +22,8 @@ class Parameters:
     Attributes:
         Ts: time between two ticks of the controller ([s]).
         robot_weight: weight of the robot; half of it normalises the load ([N], Eq. 5).
+        F_max: largest load over half the weight that the circuits see; a higher one, as in an
+            impact or under a payload, counts as this (Eq. 5).
         method: which controller runs.
         w11: self-weight of both neurons, w11 = w22 (Eq. 3).
         w12_0: cross-weight at MI = 0: w12 = w12_0 + MI, w21 = -w12 (Eq. 3).
@@ -63,6 +65,7 @@ class Parameters:
 
     Ts: float = 0.016666666666666666
     robot_weight: float = 24.525
+    F_max: float = 1.0
     method: Method = Method.apnc
     w11: float = 1.4
     w12_0: float = 0.21

@@ -13,19 +13,20 @@ MOST_WEIGHTS: Final = 1000.0
 """A load above so many times the weight is no load: a sensor shows it when its wire breaks."""
 
 
-def normalise(grf: Array, robot_weight: float) -> tuple[Array, NDArray[np.bool_]]:
+def normalise(grf: Array, robot_weight: float, F_max: float) -> tuple[Array, NDArray[np.bool_]]:
     """Load over half the weight, F(n), and the legs whose sensor reports nonsense.
 
     Args:
         grf: loads [N], shape (n,).
         robot_weight: weight of the robot [N].
+        F_max: largest F that the circuits see [1].
 
     Returns:
         F, shape (n,), zero where the load is not finite, negative or beyond ``MOST_WEIGHTS``, and
         that fault, shape (n,).
 
-    Source: text below Eq. 5. Pitfall: the paper says [0, 1); a foot that carries more than half
-    the weight gives more than 1, and is not clipped.
+    F = min(grf / (robot_weight / 2), F_max); the paper normalises to [0, 1) (text below Eq. 5).
+    Pitfall: without the limit a payload or an impact raises gamma F until the oscillator stops.
     """
     fault = ~((grf >= 0.0) & (grf <= MOST_WEIGHTS * robot_weight))
-    return np.where(fault, 0.0, grf) * (2.0 / robot_weight), fault
+    return np.minimum(np.where(fault, 0.0, grf) * (2.0 / robot_weight), F_max), fault

@@ -72,6 +72,12 @@ TABLE: Final[tuple[Variable, ...]] = (
         source="Lilibot: 2.5 kg",
     ),
     _parameter(
+        "F_max", "", "largest load over half the weight that the circuits see; a higher one, as in "
+        "an impact or under a payload, counts as this",
+        start=1.0, unit="1", min=0.0, max=2000.0, nominal=1.0, equation="5",
+        source="paper: loads are normalised to [0, 1)",
+    ),
+    _parameter(
         "method", "", "which controller runs", type=Type.enumeration, enumeration=_METHOD,
         start=Method.apnc,
     ),

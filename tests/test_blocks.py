@@ -21,6 +21,7 @@ from apnc_core.enumerations import CouplingSign, KappaRule, Method
 from apnc_core.interface import Inputs, Parameters
 from apnc_core.phase_acquisition import PeakMeasure, VectorMeasure
 from apnc_core.phase_estimation import Stability, Switch
+from apnc_core.presets import preset
 
 P = Parameters()
 NO_LOAD = np.zeros(4)
@@ -76,9 +77,20 @@ def test_turning_left_steepens_the_right_legs() -> None:
 
 
 def test_load_is_over_half_the_weight_and_nonsense_counts_as_zero() -> None:
-    F, fault = load.normalise(np.array([5.0, -1.0, math.nan, math.inf, 2e4, 2.1e4]), 20.0)
+    grf = np.array([5.0, -1.0, math.nan, math.inf, 2e4, 2.1e4])
+    F, fault = load.normalise(grf, 20.0, F_max=2000.0)
     assert F.tolist() == [0.5, 0.0, 0.0, 0.0, 2000.0, 0.0]
     assert fault.tolist() == [False, True, True, True, False, True]
+
+
+def test_load_is_limited() -> None:
+    F, fault = load.normalise(np.array([5.0, 9.9, 10.0, 40.0]), 20.0, F_max=0.99)
+    assert F.tolist() == [0.5, 0.99, 0.99, 0.99]
+    assert not fault.any()
+
+
+def test_by_default_no_load_exceeds_half_the_weight() -> None:
+    assert Parameters().F_max == preset("paper").F_max == 1.0
 
 
 def test_learner_tends_to_its_fixed_point() -> None:

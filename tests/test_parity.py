@@ -53,6 +53,7 @@ def test_comparison_exercises_every_output(fmu4: Path) -> None:
 
 MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
     "load": ("load.h", "2.0 / robot_weight", "2.0001 / robot_weight", {}),
+    "load limit": ("load.h", "F < F_max ? F : F_max", "F", {}),
     "oscillator": ("oscillator.h", "w12 * o2", "1.0001 * w12 * o2", {}),
     "motor neurons": ("motor_neurons.h", "scale * a * o + b", "scale * a * o", {}),
     "sensory feedback": ("sensory_feedback.h", "F * sin_o2", "F * cos_o1", {}),

@@ -20,6 +20,7 @@ const apnc_row apnc_rows[APNC_ROWS] = {
     {"reset", "reset", "", AT(inputs, reset), 1, APNC_BOOLEAN, APNC_INPUT, 0.0, 0.0, 1.0},
     {"Ts", "Ts", "", AT(parameters, Ts), 1, APNC_REAL, APNC_FIXED, 0.016666666666666666, 0.0001, 1.0},
     {"robot_weight", "robot_weight", "", AT(parameters, robot_weight), 1, APNC_REAL, APNC_TUNABLE, 24.525, 0.001, 1000000.0},
+    {"F_max", "F_max", "", AT(parameters, F_max), 1, APNC_REAL, APNC_TUNABLE, 1.0, 0.0, 2000.0},
     {"method", "method", "", AT(parameters, method), 1, APNC_ENUMERATION, APNC_TUNABLE, 1.0, 1.0, 4.0},
     {"w11", "w11", "", AT(parameters, w11), 1, APNC_REAL, APNC_TUNABLE, 1.4, 0.0, 5.0},
     {"w12_0", "w12_0", "", AT(parameters, w12_0), 1, APNC_REAL, APNC_TUNABLE, 0.21, 0.0, 2.0},

@@ -18,7 +18,7 @@
 #define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
 #define APNC_VR_STRIDE 100u /* value reference = stride * row + element */
 #define APNC_VR_TIME 9900u /* of the independent variable in FMI 3.0 */
-#define APNC_ROWS 56
+#define APNC_ROWS 57
 
 #define APNC_MI_START 0.08
 #define APNC_MI_MIN (0.0)
@@ -53,6 +53,7 @@ typedef enum {
 typedef struct {
     double Ts; /* [s] time between two ticks of the controller */
     double robot_weight; /* [N] Eq. 5: weight of the robot; half of it normalises the load */
+    double F_max; /* [1] Eq. 5: largest load over half the weight that the circuits see; a higher one, as in an impact or under a payload, counts as this */
     int32_t method; /* which controller runs */
     double w11; /* [1] Eq. 3: self-weight of both neurons, w11 = w22 */
     double w12_0; /* [1] Eq. 3: cross-weight at MI = 0: w12 = w12_0 + MI, w21 = -w12 */

@@ -208,7 +208,7 @@ void apnc_tick(const apnc_parameters *p, apnc_state *state, const apnc_inputs *i
     const double scale = apnc_load_scale(p->robot_weight);
     const double most = APNC_MOST_WEIGHTS * p->robot_weight;
     for (int leg = 0; leg < APNC_LEGS; leg++)
-        F[leg] = apnc_load(in->grf[leg], scale, most, &fault[leg]);
+        F[leg] = apnc_load(in->grf[leg], scale, p->F_max, most, &fault[leg]);
 
     if (in->reset || (p->MI_zero_resets && state->MI == 0.0)) {
         apnc_reset(p, state);
