@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from apnc_studies import metrics
 from apnc_studies.formation_picture import formation_svg
 from apnc_studies.formation_table import formation_markdown
 from apnc_studies.summary import summarise
-from apnc_studies.trial_table import Progress, Row, run_trials
+from apnc_studies.trial_table import Execution, Row, run_trials
 from apnc_studies.walk import WalkOptions, walk
 from build_fmu.build import host_fmu
 from exudyn_models.description import ROBOTS
@@ -57,12 +57,8 @@ def run_formation(
     seeds: int = 20,
     mis: Sequence[float] = MI_VALUES,
     methods: Sequence[str] = ("apnc", "apc"),
-    workers: int = 2,
-    progress: Progress = lambda done, total: None,
-    *,
     duration: float = 45.0,
-    resume: bool = False,
-    stop: Callable[[], bool] = lambda: False,
+    execution: Execution | None = None,
 ) -> Path:
     """Run the study and write ``formation.csv``, ``formation.md`` and ``formation.svg``.
 
@@ -71,11 +67,8 @@ def run_formation(
         seeds: trials per MI and method, seeds 0 ... seeds - 1.
         mis: modulatory inputs [1].
         methods: names of controllers.
-        workers: processes.
-        progress: called with the numbers of finished and of all trials.
         duration: simulated time of a trial [s].
-        resume: keep the rows of an earlier run in the folder.
-        stop: asked between trials; True ends the study early.
+        execution: how the trials are run.
 
     Returns:
         The table, a row per trial.
@@ -84,17 +77,10 @@ def run_formation(
         ValueError: a value outside what is allowed, or a table that is there without ``resume``.
         OSError: a file cannot be written.
     """
-    if seeds < 1:
-        raise ValueError(f"trials = {seeds} is not 1 or more")
-    if not mis or not methods:
-        raise ValueError("at least one MI and one method are needed")
     trials = formation_trials(seeds, mis, methods, duration)
-    output.mkdir(parents=True, exist_ok=True)
     path = output / "formation.csv"
     host_fmu()  # built once here, not by every process at the same time
-    rows = run_trials(
-        trials, run_trial, _key, path, workers=workers, resume=resume, progress=progress, stop=stop
-    )
+    rows = run_trials(trials, run_trial, path, execution)
     (output / "formation.md").write_text(formation_markdown(rows), encoding="utf-8")
     (output / "formation.svg").write_text(formation_svg(rows), encoding="utf-8")
     return path
@@ -106,8 +92,12 @@ def formation_trials(
     """All trials of the grid.
 
     Raises:
-        ValueError: an MI, method or duration outside what is allowed.
+        ValueError: no seed, MI or method, or one or a duration outside what is allowed.
     """
+    if seeds < 1:
+        raise ValueError(f"trials = {seeds} is not 1 or more")
+    if not mis or not methods:
+        raise ValueError("at least one MI and one method are needed")
     for method in methods:
         for mi in mis:
             WalkOptions(mi=mi, duration=duration, method=method)
@@ -118,11 +108,6 @@ def formation_trials(
         for mi in mis
         for seed in range(seeds)
     ]
-
-
-def _key(entries: Mapping[str, Any]) -> tuple[str, ...]:
-    names = ("method", "mi", "seed", "duration_s", "parameters")
-    return tuple(str(entries.get(name)) for name in names)
 
 
 def run_trial(trial: Trial) -> Row:

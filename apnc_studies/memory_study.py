@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -13,7 +13,7 @@ from apnc_studies.formation_study import fingerprint
 from apnc_studies.formation_table import numbers, success_interval
 from apnc_studies.memory_picture import memory_svg
 from apnc_studies.scenarios import judge, run_scenario
-from apnc_studies.trial_table import Progress, Row, run_trials
+from apnc_studies.trial_table import Execution, Row, run_trials
 from build_fmu.build import host_fmu
 
 STATES: Final = ("S1", "S2", "S3")
@@ -42,24 +42,13 @@ class MemoryTrial:
     parameters: str
 
 
-def run_memory(
-    output: Path,
-    seeds: int = 20,
-    workers: int = 2,
-    progress: Progress = lambda done, total: None,
-    *,
-    resume: bool = False,
-    stop: Callable[[], bool] = lambda: False,
-) -> Path:
+def run_memory(output: Path, seeds: int = 20, execution: Execution | None = None) -> Path:
     """Run the study and write ``memory.csv``, ``memory.md`` and, of seed 0, ``memory.svg``.
 
     Args:
         output: folder for the files, made if missing.
         seeds: trials with and without couplings, seeds 0 ... seeds - 1.
-        workers: processes.
-        progress: called with the numbers of finished and of all trials.
-        resume: keep the rows of an earlier run in the folder.
-        stop: asked between trials; True ends the study early.
+        execution: how the trials are run.
 
     Returns:
         The table, a row per trial.
@@ -72,21 +61,14 @@ def run_memory(
         raise ValueError(f"trials = {seeds} is not 1 or more")
     known = fingerprint()
     trials = [MemoryTrial(anc, seed, known) for anc in (1, 0) for seed in range(seeds)]
-    output.mkdir(parents=True, exist_ok=True)
-    path = output / "memory.csv"
+    path, how = output / "memory.csv", execution or Execution()
     fmu = host_fmu()  # built once here, not by every process at the same time
-    rows = run_trials(
-        trials, run_trial, _key, path, workers=workers, resume=resume, progress=progress, stop=stop
-    )
+    rows = run_trials(trials, run_trial, path, how)
     (output / "memory.md").write_text(memory_markdown(rows), encoding="utf-8")
-    if not stop():
+    if not how.stop():
         picture = memory_svg(run_scenario(fmu, 0, True), run_scenario(fmu, 0, False))
         (output / "memory.svg").write_text(picture, encoding="utf-8")
     return path
-
-
-def _key(entries: Mapping[str, Any]) -> tuple[str, ...]:
-    return tuple(str(entries.get(name)) for name in ("anc", "seed", "parameters"))
 
 
 def run_trial(trial: MemoryTrial) -> Row:

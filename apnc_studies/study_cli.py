@@ -21,6 +21,7 @@ from apnc_studies import contact_study
 from apnc_studies.console import StopRequest, err, out
 from apnc_studies.formation_study import MI_VALUES, run_formation
 from apnc_studies.memory_study import run_memory
+from apnc_studies.trial_table import Execution
 
 study = typer.Typer(no_args_is_help=True, help="Run a study: CSV, table and picture.")
 
@@ -95,11 +96,8 @@ def formation_command(
             trials,
             tuple(mi or MI_VALUES),
             tuple(name.strip() for name in methods.split(",")),
-            workers,
-            progress,
-            duration=duration,
-            resume=resume,
-            stop=stop,
+            duration,
+            Execution(workers, resume, progress, stop),
         )
     _finish(table, (folder / "formation.md").read_text(encoding="utf-8"), stop)
 
@@ -111,7 +109,7 @@ def states_command(
     """States S1 to S3 in detail, with a picture of one run (Fig. 9-12)."""
     folder, stop = _folder(output, "states"), StopRequest()
     with stop.listening(), _bar("states") as progress:
-        table = run_memory(folder, trials, workers, progress, resume=resume, stop=stop)
+        table = run_memory(folder, trials, Execution(workers, resume, progress, stop))
     _finish(table, (folder / "memory.md").read_text(encoding="utf-8"), stop)
 
 

@@ -7,6 +7,7 @@ import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
+from dataclasses import dataclass, fields
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -15,52 +16,76 @@ Row = dict[str, Any]
 Progress = Callable[[int, int], None]
 
 
-def run_trials(
-    trials: Sequence[Any],
-    work: Callable[[Any], Row],
-    key: Callable[[Mapping[str, Any]], tuple[str, ...]],
-    path: Path,
-    *,
-    workers: int = 1,
-    resume: bool = False,
-    progress: Progress = lambda done, total: None,
-    stop: Callable[[], bool] = lambda: False,
-) -> list[Row]:
-    """Run every trial that the table does not hold yet.
+@dataclass(frozen=True)
+class Execution:
+    """How a list of trials is run.
 
     Args:
-        trials: what to run; the attributes of a trial are the first columns of its row.
-        work: importable function from a trial to its row; all rows have the same columns. What it
-            raises becomes the entry ``error`` of a row that holds nothing else.
-        key: the entries that tell trials apart, as text, from a row or a trial's attributes.
-        path: the table; rows are appended as they come and sorted like ``trials`` at the end.
         workers: processes; 1 runs in this one.
         resume: keep the rows of an earlier run; those with an error are run again.
         progress: called with the numbers of finished and of all trials.
         stop: asked between trials; True ends the run, what is finished stays.
 
+    Raises:
+        ValueError: bad number of workers.
+    """
+
+    workers: int = 1
+    resume: bool = False
+    progress: Progress = lambda done, total: None
+    stop: Callable[[], bool] = lambda: False
+
+    def __post_init__(self) -> None:
+        """Check the number of workers."""
+        if self.workers < 1:
+            raise ValueError(f"workers = {self.workers} is not 1 or more")
+
+
+def run_trials(
+    trials: Sequence[Any],
+    work: Callable[[Any], Row],
+    path: Path,
+    execution: Execution | None = None,
+) -> list[Row]:
+    """Run every trial that the table does not hold yet.
+
+    Args:
+        trials: what to run: dataclasses whose fields, the first columns of a row, tell them apart.
+        work: importable function from a trial to its row; all rows have the same columns. What it
+            raises becomes the entry ``error`` of a row that holds nothing else.
+        path: the table, in a folder that is made if missing; rows are appended as they come and
+            sorted like ``trials`` at the end.
+        execution: how; in this process, from the start, if omitted.
+
     Returns:
         The rows as text, in the order of ``trials``; fewer if it was stopped.
 
     Raises:
-        ValueError: bad number of workers, or a table that is there without ``resume``.
+        ValueError: no trial, or a table that is there without ``resume``.
         OSError: the table cannot be written.
     """
-    if workers < 1:
-        raise ValueError(f"workers = {workers} is not 1 or more")
-    if path.exists() and not resume:
+    how = execution or Execution()
+    if not trials:
+        raise ValueError("there is no trial to run")
+    if path.exists() and not how.resume:
         raise ValueError(f"{path} is there already; resume it or choose another folder")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    names = [field.name for field in fields(trials[0])]
+
+    def key(row: Mapping[str, Any]) -> tuple[str, ...]:
+        return tuple(str(row.get(name)) for name in names)
+
     order = [key(vars(trial)) for trial in trials]
-    kept = {key(row): row for row in (_finished(path) if resume else [])}
+    kept = {key(row): row for row in (_finished(path) if how.resume else [])}
     rows = {k: kept[k] for k in order if k in kept}
     missing = [t for t, k in zip(trials, order, strict=True) if k not in rows]
     _rewrite(path, list(rows.values()))
-    progress(len(rows), len(trials))
-    for trial, row in _results(missing, work, workers, stop):
+    how.progress(len(rows), len(trials))
+    for trial, row in _results(missing, work, how.workers, how.stop):
         text = {name: "" if value is None else str(value) for name, value in row.items()}
         rows[key(vars(trial))] = text
         _append(path, text)
-        progress(len(rows), len(trials))
+        how.progress(len(rows), len(trials))
     ordered = [rows[k] for k in order if k in rows]
     _rewrite(path, ordered)
     return ordered

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from apnc_studies.trial_table import Row
 
@@ -18,10 +16,6 @@ def square(job: Job) -> Row:
     if job.number == 3:
         raise RuntimeError("three, of all numbers")
     return {"number": job.number, "square": job.number**2}
-
-
-def number_of(entries: Mapping[str, Any]) -> tuple[str, ...]:
-    return (str(entries["number"]),)
 
 
 JOBS = [Job(n) for n in (3, 1, 2, 5)]

@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from jobs import JOBS, number_of, square
+from jobs import JOBS, square
 
 from apnc_studies import metrics
 from apnc_studies.formation_picture import formation_svg
@@ -17,7 +17,7 @@ from apnc_studies.memory_study import run_memory
 from apnc_studies.scenarios import Outcome, Timeline, judge, run_scenario
 from apnc_studies.search import KNOBS, formation_cost
 from apnc_studies.summary import summarise
-from apnc_studies.trial_table import Row, run_trials
+from apnc_studies.trial_table import Execution, Row, run_trials
 from apnc_studies.walk import WalkOptions, walk
 
 # --- the preset forms its gait -----------------------------------------------------------------
@@ -105,9 +105,8 @@ def _table(path: Path) -> list[dict[str, str]]:
 
 def test_formation_study_small(tmp_path: Path) -> None:
     seen: list[tuple[int, int]] = []
-    table = run_formation(
-        tmp_path, 2, (0.08,), ("apnc", "apc"), 2, lambda *n: seen.append(n), duration=6.0
-    )
+    execution = Execution(2, progress=lambda *n: seen.append(n))
+    table = run_formation(tmp_path, 2, (0.08,), ("apnc", "apc"), 6.0, execution)
     rows = _table(table)
     assert [(r["method"], r["mi"], r["seed"]) for r in rows] == [
         ("apnc", "0.08", "0"),
@@ -125,9 +124,8 @@ def test_formation_study_small(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="is there already"):
         run_formation(tmp_path, 2, (0.08,), duration=6.0)
     seen.clear()
-    run_formation(
-        tmp_path, 2, (0.08,), progress=lambda *n: seen.append(n), duration=6.0, resume=True
-    )
+    again = Execution(resume=True, progress=lambda *n: seen.append(n))
+    run_formation(tmp_path, 2, (0.08,), duration=6.0, execution=again)
     assert seen == [(4, 4)]  # nothing was run again
     assert table.read_text() == before
 
@@ -139,7 +137,6 @@ def test_formation_study_small(tmp_path: Path) -> None:
         ({"mis": (1.5,)}, "mi = 1.5"),
         ({"mis": ()}, "at least one"),
         ({"methods": ("trot",)}, "method 'trot'"),
-        ({"workers": 0}, "workers = 0"),
         ({"duration": -1.0}, "duration = -1"),
     ],
 )
@@ -194,27 +191,32 @@ def test_picture_shows_every_group() -> None:
 
 
 def test_trial_that_raises_is_a_row(tmp_path: Path) -> None:
-    rows = run_trials(JOBS, square, number_of, tmp_path / "t.csv")
+    rows = run_trials(JOBS, square, tmp_path / "t.csv")
     assert [row["number"] for row in _table(tmp_path / "t.csv")] == ["3", "1", "2", "5"]
     assert rows[0]["error"] == "RuntimeError: three, of all numbers"
     assert rows[3]["square"] == "25" and rows[3]["error"] == ""
 
 
 def test_rows_do_not_depend_on_the_number_of_workers(tmp_path: Path) -> None:
-    run_trials(JOBS, square, number_of, tmp_path / "1.csv")
-    run_trials(JOBS, square, number_of, tmp_path / "2.csv", workers=2)
+    run_trials(JOBS, square, tmp_path / "1.csv")
+    run_trials(JOBS, square, tmp_path / "2.csv", Execution(workers=2))
     assert (tmp_path / "1.csv").read_text() == (tmp_path / "2.csv").read_text()
 
 
 def test_stopped_and_resumed_is_the_same_as_run_through(tmp_path: Path) -> None:
     asked = iter([False, False, True])
-    run_trials(JOBS, square, number_of, tmp_path / "t.csv", stop=lambda: next(asked))
+    run_trials(JOBS, square, tmp_path / "t.csv", Execution(stop=lambda: next(asked)))
     assert len(_table(tmp_path / "t.csv")) == 2
     with (tmp_path / "t.csv").open("a") as file:
         file.write("5,2")  # cut off while it was written
-    run_trials(JOBS, square, number_of, tmp_path / "t.csv", resume=True)
-    run_trials(JOBS, square, number_of, tmp_path / "whole.csv")
+    run_trials(JOBS, square, tmp_path / "t.csv", Execution(resume=True))
+    run_trials(JOBS, square, tmp_path / "whole.csv")
     assert (tmp_path / "t.csv").read_text() == (tmp_path / "whole.csv").read_text()
+
+
+def test_execution_refuses_no_workers() -> None:
+    with pytest.raises(ValueError, match="workers = 0"):
+        Execution(workers=0)
 
 
 # --- search ------------------------------------------------------------------------------------
