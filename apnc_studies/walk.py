@@ -127,7 +127,7 @@ def save(record: Record, options: WalkOptions, folder: Path) -> Summary:
     summary = summarise(record, method=options.method, mi=options.mi, seed=options.seed)
     (folder / "summary.json").write_text(summary.to_json(), encoding="utf-8")
     write_csv(record, folder / "record.csv")
-    write_report(record, summary, folder / "report.html")
+    write_report(record, summary, folder / "report.html", load_robot(options.robot))
     return summary
 
 

@@ -14,11 +14,14 @@ import pytest
 from browser import console_lines, look, needs_browser
 from records import FEMUR, TIBIA, TRIPOD, synthetic_record
 
-from apnc_studies.report import LILIBOT, Skeleton, write_report
+from apnc_studies.report import write_report
 from apnc_studies.report.skeleton import leg_chains
 from apnc_studies.report.wording import verdicts
 from apnc_studies.summary import Summary, summarise
+from exudyn_models.description import load_robot
 from exudyn_models.recording import Record
+
+LILIBOT = load_robot("lilibot")
 
 
 def summary_of(record: Record) -> Summary:
@@ -28,7 +31,9 @@ def summary_of(record: Record) -> Summary:
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     record = synthetic_record(45.0, formation=(2.0, 8.0))
-    return write_report(record, summary_of(record), tmp_path_factory.mktemp("r") / "report.html")
+    return write_report(
+        record, summary_of(record), tmp_path_factory.mktemp("r") / "report.html", LILIBOT
+    )
 
 
 class Resources(html.parser.HTMLParser):
@@ -102,7 +107,7 @@ def test_probe_notices_a_broken_page(report: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize("samples", [0, 1, 7])
 def test_an_interrupted_run_has_a_report(samples: int, tmp_path: Path) -> None:
     record = synthetic_record(samples / 60, complete=False)
-    page = write_report(record, summary_of(record), tmp_path / "report.html")
+    page = write_report(record, summary_of(record), tmp_path / "report.html", LILIBOT)
     seen, log = look(page, tmp_path)
     assert seen["errors"] == [] and console_lines(log) == []
     assert "interrupted" in page.read_text(encoding="utf-8")
@@ -155,10 +160,10 @@ def test_pitch_and_roll_tilt_the_hips() -> None:
     assert hips[[0, 2]].max() < hips[[1, 3]].min()
 
 
-def test_skeleton_without_a_leg_is_refused(tmp_path: Path) -> None:
+def test_robot_without_a_leg_of_the_record_is_refused(tmp_path: Path) -> None:
     record = synthetic_record(0.5, TRIPOD)
-    with pytest.raises(ValueError, match="no hip for leg RM, LM"):
-        write_report(record, summary_of(record), tmp_path / "r.html", Skeleton(LILIBOT.hips))
+    with pytest.raises(ValueError, match="has no leg RM, LM"):
+        write_report(record, summary_of(record), tmp_path / "r.html", LILIBOT)
 
 
 @pytest.mark.parametrize(

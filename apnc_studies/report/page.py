@@ -12,17 +12,17 @@ from plotly.offline import get_plotlyjs
 from apnc_studies.report.animation import animation_data
 from apnc_studies.report.encoding import packed, script_json
 from apnc_studies.report.figures import Figure, all_figures
-from apnc_studies.report.skeleton import LILIBOT, Skeleton
 from apnc_studies.report.theme import leg_colours
 from apnc_studies.report.wording import rows, verdicts
 from apnc_studies.summary import Summary
 from exudyn_models.recording import Record
+from exudyn_models.robot import RobotDescription
 
 _SCRIPTS: Final = ("plots.js", "scene.js", "animation.js")
 
 
 def write_report(
-    record: Record, summary: Summary, path: Path | str, skeleton: Skeleton | None = None
+    record: Record, summary: Summary, path: Path | str, robot: RobotDescription | None = None
 ) -> Path:
     """Write the self-contained report of a run.
 
@@ -30,27 +30,24 @@ def write_report(
         record: the run, finished or interrupted.
         summary: its key figures.
         path: HTML file to write; its folder must exist.
-        skeleton: geometry of the legs for the animation. None means Lilibot's if the record has
-            Lilibot's legs, else straight legs.
+        robot: the robot that walked, for the animation; None draws straight legs.
 
     Returns:
         The path written.
 
     Raises:
         OSError: the file cannot be written.
-        ValueError: the skeleton lacks a leg of the record.
+        ValueError: the robot lacks a leg of the record.
 
     Pitfall: the file carries plotly.js (about 5 MB) and every sample; it is no archive format.
     """
     target = Path(path)
-    target.write_text(render(record, summary, skeleton), encoding="utf-8")
+    target.write_text(render(record, summary, robot), encoding="utf-8")
     return target
 
 
-def render(record: Record, summary: Summary, skeleton: Skeleton | None = None) -> str:
+def render(record: Record, summary: Summary, robot: RobotDescription | None = None) -> str:
     """HTML text of the report, see ``write_report``."""
-    if skeleton is None and set(record.legs) == set(LILIBOT.hips):
-        skeleton = LILIBOT
     figures = all_figures(record, summary) if len(record) else []
     environment = _environment()
     template = environment.get_template("report.html.j2")
@@ -63,18 +60,18 @@ def render(record: Record, summary: Summary, skeleton: Skeleton | None = None) -
         css=Markup(_source(environment, "style.css")),
         scripts=[Markup(_source(environment, name)) for name in _SCRIPTS],
         plotly=Markup(get_plotlyjs()),
-        data=Markup(script_json(_data(record, figures, skeleton))),
+        data=Markup(script_json(_data(record, figures, robot))),
     )
 
 
-def _data(record: Record, figures: list[Figure], skeleton: Skeleton | None) -> dict[str, Any]:
+def _data(record: Record, figures: list[Figure], robot: RobotDescription | None) -> dict[str, Any]:
     return {
         "time": packed(record.time, "<f4"),
         "figures": [
             {"key": f.key, "data": f.data, "layout": f.layout, "overTime": f.over_time}
             for f in figures
         ],
-        "animation": animation_data(record, skeleton),
+        "animation": animation_data(record, robot),
     }
 
 
