@@ -69,7 +69,7 @@ KNOBS: Final = (
     Knob("a2", 0.03, 0.22, 0.060),
     Knob("b1", -0.35, 0.10, -0.065),
     Knob("b2", -0.35, 0.15, -0.120),
-    Knob("B_f", 0.015, 0.15, 0.049, log=True),
+    Knob("B_f", 0.015, 0.3, 0.049, log=True),
     Knob("B_s", 1e-4, 1.2e-2, 3e-3, log=True),
     Knob("xi", 0.01, 0.045, 0.021, log=True),
     Knob("trunk.com_x", 0.0, 0.015, 0.011),
@@ -91,7 +91,10 @@ LAST: Final = 240
 TROT: Final = (np.pi, np.pi, 0.0)
 
 MI_SETS: Final = ((0.05, 0.12, 0.20, 0.28), (0.08, 0.14, 0.24, 0.30), (0.06, 0.10, 0.17, 0.26))
-"""MI of the trials of a generation, in turn."""
+RATES: Final = (45.0, 30.0, 50.0)
+LOADED: Final = (0.08, 0.15, 0.25)
+DAMAGED: Final = (0.15, 0.08)
+"""MI, update rate [Hz], MI with payload and MI with a damaged leg of a generation, in turn."""
 
 
 def built_robot(candidate: Candidate) -> RobotDescription:
@@ -111,17 +114,25 @@ def gains(candidate: Candidate) -> dict[str, float]:
     return {name: value for name, value in candidate.items() if "." not in name}
 
 
-def walk_candidate(
-    fmu: Path, candidate: Candidate, mi: float, seed: int, condition: str = "C1"
-) -> Record:
-    """One short walk; the couplings may switch on in C3 only, where no trot is asked for."""
-    robot = built_robot(candidate)
-    method = "apnc" if condition == "C3" else "apc"
-    options = WalkOptions(mi, TRIAL_S, method, seed, settings=gains(candidate))
-    parameters = {"robot_weight": robot.weight} | options.parameters()
+@dataclass(frozen=True)
+class Trial:
+    """One short walk: with which controller, how fast, under which condition and update rate."""
+
+    mi: float
+    method: str
+    condition: str = "C1"
+    rate: float = 60.0
+
+
+def walk_candidate(fmu: Path, candidate: Candidate, trial: Trial, seed: int) -> Record:
+    """Walk one trial; as many ticks whatever the rate."""
+    robot, Ts = built_robot(candidate), 1.0 / trial.rate
+    duration = TRIAL_S * 60.0 / trial.rate
+    options = WalkOptions(trial.mi, duration, trial.method, seed, settings=gains(candidate))
+    parameters = {"robot_weight": robot.weight} | options.parameters() | {"Ts": Ts}
     with FmuController(fmu, parameters) as controller:
-        plant = Plant(robot, seed, conditions=named_conditions(condition))
-        return run(plant, controller, TRIAL_S, 1 / 60, lambda t: Commands(MI=mi))
+        plant = Plant(robot, seed, conditions=named_conditions(trial.condition))
+        return run(plant, controller, duration, Ts, lambda t: Commands(MI=trial.mi))
 
 
 def wanted_speed(mi: float) -> float:
@@ -129,8 +140,8 @@ def wanted_speed(mi: float) -> float:
     return 0.05 + 0.28 * mi
 
 
-def formation_cost(record: Record, mi: float) -> float:
-    """How far from an early, exact trot and a straight, brisk walk [1]; 0 is perfect."""
+def formation_cost(record: Record, wanted: float) -> float:
+    """How far from an early, exact trot and a straight walk at ``wanted`` [m/s]; 0 is perfect."""
     if not record.complete:
         return 10.0
     c = record.controller
@@ -140,7 +151,7 @@ def formation_cost(record: Record, mi: float) -> float:
     cost += 1.5 * float(np.clip(error[-LAST:] - 0.2, 0.0, 1.5).mean())
     lift = float(np.ptp(record.plant["foot_position"][-LAST:, :, 2], axis=0).mean())
     cost += 0.5 * max(0.0, 1.0 - lift / WANTED_LIFT)
-    return cost + walking_cost(record, wanted_speed(mi))
+    return cost + walking_cost(record, wanted)
 
 
 WANTED_LIFT: Final = 0.0115
@@ -150,7 +161,7 @@ WANTED_LIFT: Final = 0.0115
 def walking_cost(record: Record, wanted: float) -> float:
     """How much slower than wanted [m/s], how far from straight and upright [1]."""
     roll, pitch, yaw = record.plant["rpy"].T
-    speed = metrics.smoothed_speed(record.time, record.plant["position"], yaw)[-360:].mean()
+    speed = metrics.smoothed_speed(record.time, record.plant["position"], yaw)[-LAST:].mean()
     cost = min(1.0, max(0.0, wanted - float(speed)) / 0.05)
     turned = abs(float(np.unwrap(yaw)[-1] - np.unwrap(yaw)[-360])) / 6.0
     cost += min(0.5, turned)
@@ -191,13 +202,19 @@ def memory_cost(fmu: Path, candidate: Candidate, seed: int) -> float:
     return cost + (5.0 if outcome.fell else 0.0)
 
 
+MARGIN: Final = 0.93
+
+
 def blocked_cost(fmu: Path, candidate: Candidate, mi: float = 0.15) -> float:
     """Rate of an oscillator without couplings whose load sticks at 0.9, over its free rate [1].
 
-    Zero if it stops. The rate falls towards the stop, so the search sees where to go.
+    Zero if it stops with learning rates a little lower, too. The rate falls towards the stop, so
+    the search sees where to go.
     """
     weight = 24.525
-    options = WalkOptions(mi, 1.0, "apc", settings=gains(candidate))
+    settings = gains(candidate)
+    settings |= {name: settings[name] * MARGIN for name in ("B_f", "B_s") if name in settings}
+    options = WalkOptions(mi, 1.0, "apc", settings=settings)
     moved = []
     with FmuController(fmu, {"robot_weight": weight} | options.parameters()) as controller:
         for n in range(900):
@@ -215,22 +232,28 @@ def _turns(o1: Array) -> int:
     return int(np.count_nonzero(~high[:-1] & high[1:]))
 
 
-COSTS: Final = ("mi_0", "mi_1", "mi_2", "mi_3", "payload", "damage", "memory", "blocked")
+COSTS: Final = ("mi_0", "mi_1", "mi_2", "mi_3", "rate", "payload", "damage", "memory", "blocked")
 
 
 def cost(fmu: Path, candidate: Candidate, seed: int) -> tuple[float, ...]:
     """Costs of one candidate, by ``COSTS``; their sum is what is searched."""
 
-    def walked(mi: float, condition: str = "C1") -> Record:
-        return walk_candidate(fmu, candidate, mi, seed, condition)
+    def walked(trial: Trial) -> Record:
+        return walk_candidate(fmu, candidate, trial, seed)
 
-    loaded, damaged = (0.08, 0.15) if seed % 2 else (0.15, 0.08)
+    def formed(trial: Trial, pace: float = 1.0) -> float:
+        return formation_cost(walked(trial), pace * wanted_speed(trial.mi))
+
+    methods = ("apnc", "apc") if seed % 2 else ("apc", "apnc")
+    rate = RATES[seed % len(RATES)]
+    loaded, damaged = LOADED[seed % len(LOADED)], DAMAGED[seed % len(DAMAGED)]
     return (
-        *(formation_cost(walked(mi), mi) for mi in MI_SETS[seed % 3]),
-        formation_cost(walked(loaded, "C4"), 0.8 * loaded),
-        damage_cost(walked(damaged, "C3")),
+        *(formed(Trial(mi, methods[n % 2])) for n, mi in enumerate(MI_SETS[seed % 3])),
+        formed(Trial(0.08, "apnc", rate=rate), rate / 60.0),
+        formed(Trial(loaded, methods[0], "C4"), 0.8),
+        damage_cost(walked(Trial(damaged, "apnc", "C3"))),
         memory_cost(fmu, candidate, seed),
-        blocked_cost(fmu, candidate),
+        3.0 * blocked_cost(fmu, candidate),
     )
 
 

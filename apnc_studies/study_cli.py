@@ -21,6 +21,7 @@ from apnc_studies import contact_study
 from apnc_studies.console import StopRequest, err, out
 from apnc_studies.formation_study import MI_VALUES, run_formation
 from apnc_studies.memory_study import run_memory
+from apnc_studies.sensitivity_study import CHANGES, run_sensitivity
 from apnc_studies.trial_table import Execution
 
 study = typer.Typer(no_args_is_help=True, help="Run a study: CSV, table and picture.")
@@ -111,6 +112,25 @@ def states_command(
     with stop.listening(), _bar("states") as progress:
         table = run_memory(folder, trials, Execution(workers, resume, progress, stop))
     _finish(table, (folder / "memory.md").read_text(encoding="utf-8"), stop)
+
+
+@study.command("sensitivity")
+def sensitivity_command(
+    trials: Trials = 3,
+    change: Annotated[
+        list[str] | None, typer.Option(help="What is changed; repeatable. All if omitted.")
+    ] = None,
+    duration: Annotated[float, typer.Option(help="Simulated time of a trial [s].")] = 45.0,
+    workers: Workers = 2,
+    output: Output = None,
+    resume: Resume = False,
+) -> None:
+    """What a change of one number of the robot does to the gait."""
+    folder, stop = _folder(output, "sensitivity"), StopRequest()
+    with stop.listening(), _bar("sensitivity") as progress:
+        execution = Execution(workers, resume, progress, stop)
+        table = run_sensitivity(folder, trials, change or tuple(CHANGES), duration, execution)
+    _finish(table, (folder / "sensitivity.md").read_text(encoding="utf-8"), stop)
 
 
 @study.command("contact")

@@ -20,6 +20,7 @@ from exudyn_models.fmu_controller import FmuController, Setting
 from exudyn_models.master import Commands, Progress, run
 from exudyn_models.plant import Plant, PlantOptions
 from exudyn_models.recording import Record, write_csv
+from exudyn_models.robot import RobotDescription
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,25 @@ def walk(
     Raises:
         ValueError: the FMU or the robot cannot be used, or they do not fit together.
     """
-    robot = load_robot(options.robot)
+    return walk_robot(load_robot(options.robot), options, fmu, progress, stop)
+
+
+def walk_robot(
+    robot: RobotDescription,
+    options: WalkOptions,
+    fmu: Path,
+    progress: Progress = lambda t, controller: None,
+    stop: Callable[[], bool] = lambda: False,
+) -> Record:
+    """As ``walk``, with a robot that is no file.
+
+    Args:
+        robot: what walks, instead of ``options.robot``.
+        options, fmu, progress, stop: as for ``walk``.
+
+    Raises:
+        ValueError: the FMU cannot be used, or does not fit the robot.
+    """
     parameters = {"robot_weight": robot.weight} | options.parameters()
     with FmuController(fmu, parameters) as controller:
         if controller.n_legs != len(robot.legs):

@@ -233,4 +233,4 @@ def test_search_prefers_a_formed_trot(fmu4: Path) -> None:
     settings = {"B_f": 0.0, "B_s": 0.0}
     formed = walk(WalkOptions(duration=12.0, method="apc"), fmu4)
     in_phase = walk(WalkOptions(duration=12.0, method="apc", settings=settings), fmu4)
-    assert formation_cost(formed, 0.08) + 1.0 < formation_cost(in_phase, 0.08)
+    assert formation_cost(formed, 0.07) + 1.0 < formation_cost(in_phase, 0.07)
