@@ -90,7 +90,7 @@ LAST: Final = 240
 """Ticks at the end of a trial on which it is judged."""
 TROT: Final = (np.pi, np.pi, 0.0)
 
-MI_SETS: Final = ((0.05, 0.12, 0.20, 0.28), (0.08, 0.14, 0.24, 0.30), (0.06, 0.10, 0.17, 0.26))
+MI_SETS: Final = ((0.05, 0.12, 0.22, 0.29), (0.08, 0.15, 0.25, 0.28), (0.06, 0.10, 0.19, 0.27))
 RATES: Final = (45.0, 30.0, 50.0)
 LOADED: Final = (0.08, 0.15, 0.25)
 DAMAGED: Final = (0.15, 0.08)
@@ -163,8 +163,8 @@ def walking_cost(record: Record, wanted: float) -> float:
     roll, pitch, yaw = record.plant["rpy"].T
     speed = metrics.smoothed_speed(record.time, record.plant["position"], yaw)[-LAST:].mean()
     cost = min(1.0, max(0.0, wanted - float(speed)) / 0.05)
-    turned = abs(float(np.unwrap(yaw)[-1] - np.unwrap(yaw)[-360])) / 6.0
-    cost += min(0.5, turned)
+    turned = np.unwrap(yaw)[[-LAST, -1]]
+    cost += min(0.5, 0.75 * abs(float(turned[1] - turned[0])))
     if metrics.fell(roll, pitch, record.plant["position"][:, 2]):
         cost += 5.0
     return cost
