@@ -78,16 +78,35 @@ def drive(
     folder: str, fmu: Path, scratch: Path, ticks: int, settings: dict[str, int]
 ) -> np.ndarray:
     """Bits of all Real outputs, shape (ticks, outputs), as the library of a platform gives them."""
-    how = runner(folder, scratch)
-    libraries = () if folder == "win64" else ("-ldl",)
-    program = compile_native("driver.c", folder, scratch, *libraries)
-    library = fmu / "binaries" / folder / (MODEL + PLATFORMS[folder].suffix)
     guid = fmpy.read_model_description(str(fmu), validate=False).guid
     pairs = [x for name, value in settings.items() for x in (INTEGERS[name], value)]
     numbers = [ticks, len(LOADS), *LOADS, len(settings), *pairs]
     numbers += [s.value_reference for s in OUTPUTS]
+    library = fmu / "binaries" / folder / (MODEL + PLATFORMS[folder].suffix)
+    return _run("driver.c", folder, scratch, library, guid, numbers)
+
+
+def drive3(
+    folder: str, fmu: Path, scratch: Path, ticks: int, settings: dict[str, int]
+) -> np.ndarray:
+    """As ``drive``, with the library of an FMU of FMI 3.0; the outputs in the same order."""
+    token = fmpy.read_model_description(str(fmu), validate=False).instantiationToken
+    pairs = [x for name, value in settings.items() for x in (INTEGERS[name], value)]
+    numbers = [ticks, LOADS[0], len(LOADS), len(OUTPUTS), len(settings), *pairs]
+    numbers += [s.value_reference for s in OUTPUTS if s.element == 0]
+    platform = PLATFORMS[folder]
+    library = fmu / "binaries" / platform.folder_for(3) / (MODEL + platform.suffix)
+    return _run("driver3.c", folder, scratch, library, token, numbers)
+
+
+def _run(
+    source: str, folder: str, scratch: Path, library: Path, token: str, numbers: list[int]
+) -> np.ndarray:
+    how = runner(folder, scratch)
+    libraries = () if folder == "win64" else ("-ldl",)
+    program = compile_native(source, folder, scratch, *libraries)
     done = subprocess.run(
-        [*how.command, str(program), str(library), guid, *map(str, numbers)],
+        [*how.command, str(program), str(library), token, *map(str, numbers)],
         env={**os.environ, **dict(how.environment)},
         capture_output=True,
         text=True,
@@ -97,5 +116,5 @@ def drive(
     assert done.returncode == 0, done.stderr
     rows = [[int(word, 16) for word in line.split()] for line in done.stdout.splitlines()]
     bits = np.array(rows, dtype=np.uint64)
-    assert bits.shape == (ticks, len(OUTPUTS))
+    assert bits.shape == (numbers[0], len(OUTPUTS))
     return bits

@@ -5,40 +5,8 @@
  * with N inputs for loads, M integers set in initialization mode, and the outputs to print, all by
  * value reference.
  */
-#include <inttypes.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "fmi2FunctionTypes.h"
-
-#ifdef _WIN32
-#include <windows.h>
-static void *open_library(const char *path) { return (void *)LoadLibraryA(path); }
-static void *symbol(void *library, const char *name) {
-    return (void *)(uintptr_t)GetProcAddress((HMODULE)library, name);
-}
-#else
-#include <dlfcn.h>
-static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
-static void *symbol(void *library, const char *name) { return dlsym(library, name); }
-#endif
-
-#define MOST 512
-#define TS   (1.0 / 60.0)
-
-static void *library;
-
-/* A function of the library; ends the program if it is missing. */
-static void *function(const char *name) {
-    void *found = symbol(library, name);
-    if (!found) {
-        fprintf(stderr, "%s is missing\n", name);
-        exit(1);
-    }
-    return found;
-}
+#include "importer.h"
 
 static void check(fmi2Status status, const char *what) {
     if (status <= fmi2Warning) return;
@@ -51,24 +19,6 @@ static void log_message(fmi2ComponentEnvironment environment, fmi2String name, f
     (void)environment;
     (void)status;
     fprintf(stderr, "%s [%s] %s\n", name, category, message);
-}
-
-/* Stance patterns of unequal rates with noise; only operations that round alike everywhere. */
-static double load(uint64_t *seed, long tick, int foot) {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    const double noise = (double)(*seed >> 11) / 9007199254740992.0;
-    const long period = 41 + 3 * foot;
-    return tick % period < period / 2 ? 8.0 + 6.0 * noise : 0.0;
-}
-
-static char **next; /* argument to read next */
-
-static unsigned long number(void) { return *next ? strtoul(*next++, NULL, 10) : 0; }
-
-static size_t count(void) {
-    const unsigned long n = number();
-    if (n > MOST) exit(2);
-    return n;
 }
 
 int main(int argc, char **argv) {
@@ -89,11 +39,7 @@ int main(int argc, char **argv) {
     }
     while (*next && n_out < MOST) out[n_out++] = (fmi2ValueReference)number();
 
-    library = open_library(argv[1]);
-    if (!library) {
-        fprintf(stderr, "%s cannot be loaded\n", argv[1]);
-        return 1;
-    }
+    open_or_exit(argv[1]);
 #define GET(name) name##TYPE *name = (name##TYPE *)(uintptr_t)function(#name)
     GET(fmi2Instantiate);
     GET(fmi2SetupExperiment);
@@ -119,11 +65,7 @@ int main(int argc, char **argv) {
         check(fmi2SetReal(c, in, n_in, loads), "fmi2SetReal");
         check(fmi2DoStep(c, (double)tick * TS, TS, fmi2True), "fmi2DoStep");
         check(fmi2GetReal(c, out, n_out, values), "fmi2GetReal");
-        for (size_t i = 0; i < n_out; i++) {
-            uint64_t bits;
-            memcpy(&bits, &values[i], sizeof bits);
-            printf("%016" PRIx64 "%c", bits, i + 1 < n_out ? ' ' : '\n');
-        }
+        show(values, n_out);
     }
     check(fmi2Terminate(c), "fmi2Terminate");
     fmi2FreeInstance(c);
