@@ -90,7 +90,7 @@ class Parameters:
     kappa_rule: KappaRule = KappaRule.armed
     kappa_hold: int = 100
     xi: float = 0.021
-    feedback_kept: float = 0.3
+    feedback_kept: float = 0.2
     coupling_sign: CouplingSign = CouplingSign.reversed
     phi_frozen: bool = True
     MI_zero_resets: bool = True

@@ -191,7 +191,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "feedback_kept", "", "share of the sensory feedback that stays while the couplings are on; "
         "1 as in the equations",
-        start=0.3, paper=1.0, unit="1", min=0.0, max=1.0, nominal=1.0, equation="5",
+        start=0.2, paper=1.0, unit="1", min=0.0, max=1.0, nominal=1.0, equation="5",
         source="sections 3.2.1 and 4.3 let gamma become small once the couplings are on",
     ),
     _parameter(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import importlib
+import itertools
 import math
 from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
@@ -202,6 +203,31 @@ def memory_cost(fmu: Path, candidate: Candidate, seed: int) -> float:
     return cost + (5.0 if outcome.fell else 0.0)
 
 
+WANTED_TURN: Final = 0.2
+"""Turning rate asked for at full steering [rad/s]."""
+
+
+def turn_cost(fmu: Path, candidate: Candidate, seed: int, mi: float = 0.15) -> float:
+    """How far from turning briskly to either side, with a stored gait, and upright [1]."""
+    robot = built_robot(candidate)
+    options = WalkOptions(mi, 12.0, seed=seed, settings={**gains(candidate), **_STORED})
+    parameters = {"robot_weight": robot.weight} | options.parameters()
+
+    def commands(t: float) -> Commands:
+        return Commands(MI=mi, turn=0.0 if t < 3.0 else 1.0 if t < 7.5 else -1.0)
+
+    with FmuController(fmu, parameters) as controller:
+        record = run(Plant(robot, seed), controller, 12.0, 1 / 60, commands)
+    if not record.complete:
+        return 10.0
+    roll, pitch, yaw = record.plant["rpy"].T
+    turned = np.unwrap(yaw)[[270, 449, 540, 719]]
+    cost = 5.0 if metrics.fell(roll, pitch, record.plant["position"][:, 2]) else 0.0
+    for rate in ((turned[1] - turned[0]) / 3.0, (turned[2] - turned[3]) / 3.0):
+        cost += 0.75 * min(2.0, max(0.0, 1.0 - float(rate) / WANTED_TURN))
+    return cost
+
+
 MARGIN: Final = 0.93
 
 
@@ -232,14 +258,27 @@ def _turns(o1: Array) -> int:
     return int(np.count_nonzero(~high[:-1] & high[1:]))
 
 
-COSTS: Final = ("mi_0", "mi_1", "mi_2", "mi_3", "rate", "payload", "damage", "memory", "blocked")
+COSTS: Final = (
+    "mi_0",
+    "mi_1",
+    "mi_2",
+    "mi_3",
+    "rate",
+    "payload",
+    "damage",
+    "memory",
+    "turn",
+    "blocked",
+)
 
 
 def cost(fmu: Path, candidate: Candidate, seed: int) -> tuple[float, ...]:
     """Costs of one candidate, by ``COSTS``; their sum is what is searched."""
 
+    robots = itertools.count(100 * seed)  # another asymmetry and noise in every trial
+
     def walked(trial: Trial) -> Record:
-        return walk_candidate(fmu, candidate, trial, seed)
+        return walk_candidate(fmu, candidate, trial, next(robots))
 
     def formed(trial: Trial, pace: float = 1.0) -> float:
         return formation_cost(walked(trial), pace * wanted_speed(trial.mi))
@@ -252,7 +291,8 @@ def cost(fmu: Path, candidate: Candidate, seed: int) -> tuple[float, ...]:
         formed(Trial(0.08, "apnc", rate=rate), rate / 60.0),
         formed(Trial(loaded, methods[0], "C4"), 0.8),
         damage_cost(walked(Trial(damaged, "apnc", "C3"))),
-        memory_cost(fmu, candidate, seed),
+        memory_cost(fmu, candidate, next(robots)),
+        turn_cost(fmu, candidate, next(robots)),
         3.0 * blocked_cost(fmu, candidate),
     )
 

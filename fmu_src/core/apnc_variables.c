@@ -45,7 +45,7 @@ const apnc_row apnc_rows[APNC_ROWS] = {
     {"kappa_rule", "kappa_rule", "", AT(parameters, kappa_rule), 1, APNC_ENUMERATION, APNC_TUNABLE, 1.0, 1.0, 2.0},
     {"kappa_hold", "kappa_hold", "", AT(parameters, kappa_hold), 1, APNC_INTEGER, APNC_TUNABLE, 100.0, 1.0, 1000000.0},
     {"xi", "xi", "", AT(parameters, xi), 1, APNC_REAL, APNC_TUNABLE, 0.021, 0.0, 1.0},
-    {"feedback_kept", "feedback_kept", "", AT(parameters, feedback_kept), 1, APNC_REAL, APNC_TUNABLE, 0.3, 0.0, 1.0},
+    {"feedback_kept", "feedback_kept", "", AT(parameters, feedback_kept), 1, APNC_REAL, APNC_TUNABLE, 0.2, 0.0, 1.0},
     {"coupling_sign", "coupling_sign", "", AT(parameters, coupling_sign), 1, APNC_ENUMERATION, APNC_TUNABLE, 1.0, 1.0, 2.0},
     {"phi_frozen", "phi_frozen", "", AT(parameters, phi_frozen), 1, APNC_BOOLEAN, APNC_TUNABLE, 1.0, 0.0, 1.0},
     {"MI_zero_resets", "MI_zero_resets", "", AT(parameters, MI_zero_resets), 1, APNC_BOOLEAN, APNC_TUNABLE, 1.0, 0.0, 1.0},
