@@ -93,7 +93,7 @@ TROT: Final = (np.pi, np.pi, 0.0)
 
 MI_SETS: Final = ((0.05, 0.12, 0.22, 0.29), (0.08, 0.15, 0.25, 0.28), (0.06, 0.10, 0.19, 0.27))
 RATES: Final = (45.0, 30.0, 50.0)
-LOADED: Final = (0.08, 0.15, 0.25)
+LOADED: Final = ((0.08, 0.25), (0.08, 0.15), (0.07, 0.11))
 DAMAGED: Final = (0.15, 0.08)
 """MI, update rate [Hz], MI with payload and MI with a damaged leg of a generation, in turn."""
 
@@ -264,7 +264,8 @@ COSTS: Final = (
     "mi_2",
     "mi_3",
     "rate",
-    "payload",
+    "payload_0",
+    "payload_1",
     "damage",
     "memory",
     "turn",
@@ -289,7 +290,7 @@ def cost(fmu: Path, candidate: Candidate, seed: int) -> tuple[float, ...]:
     return (
         *(formed(Trial(mi, methods[n % 2])) for n, mi in enumerate(MI_SETS[seed % 3])),
         formed(Trial(0.08, "apnc", rate=rate), rate / 60.0),
-        formed(Trial(loaded, methods[0], "C4"), 0.8),
+        *(formed(Trial(mi, "apnc", "C4"), 0.8) for mi in loaded),
         damage_cost(walked(Trial(damaged, "apnc", "C3"))),
         memory_cost(fmu, candidate, next(robots)),
         turn_cost(fmu, candidate, next(robots)),
