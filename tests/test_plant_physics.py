@@ -137,7 +137,7 @@ def chatter(forces: np.ndarray) -> float:
 
 def test_walking_feet_do_not_chatter_stick_to_the_ground_or_leave_the_friction_cone() -> None:
     forces = forces_while_walking(ROBOT, PlantOptions().step)
-    assert chatter(forces) < 0.02
+    assert chatter(forces) < 0.01
     assert forces[:, :, 2].min() == 0.0
     loaded = forces[:, :, 2] > 1.0
     tangential = np.hypot(forces[:, :, 0], forces[:, :, 1])[loaded]
