@@ -107,22 +107,22 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "a1", "a_1", "slope of the motor neuron of the hip",
-        start=0.173, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
+        start=0.141, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
         source=_SEARCH,
     ),
     _parameter(
         "a2", "a_2", "slope of the motor neuron of the knee",
-        start=0.100, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
+        start=0.094, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
         source=_SEARCH,
     ),
     _parameter(
         "b1", "b_1", "offset of the motor neuron of the hip",
-        start=-0.348, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
+        start=-0.350, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
         equation="4", source=_SEARCH,
     ),
     _parameter(
         "b2", "b_2", "offset of the motor neuron of the knee",
-        start=0.073, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
+        start=0.052, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
         equation="4", source=_SEARCH,
     ),
     _parameter(
@@ -136,7 +136,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "B_f", "B_f", "learning rate of the fast learner",
-        start=0.17, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
+        start=0.174, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
         source=_SEARCH,
     ),
     _parameter(
@@ -145,7 +145,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "B_s", "B_s", "learning rate of the slow learner",
-        start=0.0003, paper=0.0002, unit="1", min=0.0, max=1.0, nominal=0.001, equation="8",
+        start=0.00045, paper=0.0002, unit="1", min=0.0, max=1.0, nominal=0.001, equation="8",
         source=_SEARCH,
     ),
     _parameter(
@@ -185,7 +185,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "xi", "xi", "gain of the neural communication",
-        start=0.031, paper=0.01, unit="1", min=0.0, max=1.0, nominal=0.01, equation="17",
+        start=0.025, paper=0.01, unit="1", min=0.0, max=1.0, nominal=0.01, equation="17",
         source=_SEARCH,
     ),
     _parameter(

@@ -32,7 +32,7 @@ def apnc(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
         (["walk", "--mi", "fast"], "'--mi'"),
         (["walk", "--seed", "-1"], "seed = -1 is negative"),
         (["walk", "--preset", "cow"], "preset 'cow' is not one of lilibot, paper"),
-        (["walk", "--set", "cow=1"], "parameter 'cow' is not one of Ts, robot_weight, method"),
+        (["walk", "--set", "cow=1"], "parameter 'cow' is not one of Ts, robot_weight, F_max"),
         (["walk", "--set", "xi=moo"], "xi = 'moo' is not a number"),
         (["walk", "--set", "xi=7"], "xi = 7 is out of range: 0 ... 1 is allowed"),
         (

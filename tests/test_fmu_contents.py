@@ -181,7 +181,7 @@ def test_reference_results_are_reproduced(legs: int, naming: str, tmp_path: Path
 
 
 @pytest.mark.parametrize(
-    ("name", "value"), [("w11", 1.41), ("B_f", 0.05), ("alpha", 0.8), ("a2", 0.1), ("Ts", 0.01)]
+    ("name", "value"), [("w11", 1.41), ("B_f", 0.05), ("alpha", 0.8), ("a2", 0.12), ("Ts", 0.01)]
 )
 def test_reference_shows_a_wrong_parameter(
     fmu4: Path, tmp_path: Path, name: str, value: float

@@ -50,7 +50,7 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
         ("tibia_angle = 92.0", "tibia_angle = 920.0", "leg.tibia_angle is 920.0"),
         ('name = "RH"', 'name = "RF"', "legs is ['RF', 'RF', 'LF', 'LH']"),
         ("[servo]", "[motor]", "servo is 'missing'; allowed: a table"),
-        ("delay = 0.037", "delay = -0.05", "sensor.delay is -0.05"),
+        ("delay = 0.0374", "delay = -0.05", "sensor.delay is -0.05"),
     ],
 )
 def test_values_out_of_range_are_named(tmp_path: Path, old: str, new: str, expected: str) -> None:

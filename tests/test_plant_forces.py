@@ -136,14 +136,15 @@ def test_obstacles_go_on_without_end() -> None:
     x, y, z, radius = Ground(roughness=1.0).obstacles()[5]
     near = np.array([x + 0.003, y, z + radius + 0.0118])
     far = near + np.array([250 * TILE, -100 * TILE, 0.0])
-    assert np.linalg.norm(one_foot_at(forces, near)) > 0.5
+    assert np.linalg.norm(one_foot_at(forces, near)) > 5e-5 * ROBOT.contact.stiffness
     np.testing.assert_allclose(one_foot_at(forces, far), one_foot_at(forces, near), rtol=1e-6)
 
 
 def test_no_ground_is_missed_at_the_seam_of_cells() -> None:
     forces = RobotForces(ROBOT, Ground(roughness=1.0), np.zeros(12))
+    of_the_plane = 0.001 * ROBOT.contact.stiffness
     for x in (-1e-20, 0.0, TILE, -TILE, np.nextafter(TILE, 0.0)):
-        assert one_foot_at(forces, np.array([x, -1e-20, 0.011]))[2] >= 23.4 - 1e-6
+        assert one_foot_at(forces, np.array([x, -1e-20, 0.011]))[2] >= of_the_plane - 1e-6
 
 
 @pytest.mark.parametrize("roughness", [0.2, 1.0])
