@@ -78,7 +78,7 @@ class Parameters:
     b2: float = 0.052
     turn_gain: float = 0.5
     A_f: float = 0.57
-    B_f: float = 0.174
+    B_f: float = 0.182
     A_s: float = 0.99
     B_s: float = 0.00045
     alpha: float = 0.9

@@ -136,7 +136,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "B_f", "B_f", "learning rate of the fast learner",
-        start=0.174, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
+        start=0.182, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
         source=_SEARCH,
     ),
     _parameter(
