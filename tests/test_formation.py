@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import csv
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -37,6 +38,32 @@ def test_default_walk_forms_a_trot_and_keeps_it(fmu4: Path, seed: int) -> None:
     assert len(on)
     stored = record.controller["phi_memory"][-1]
     assert np.abs(metrics.wrap(stored - np.array([np.pi, np.pi, 0.0]))).max() < 0.6
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_trot_forms_under_the_payload(fmu4: Path, seed: int) -> None:
+    options = WalkOptions(mi=0.15, seed=seed, duration=20.0, condition="C4")
+    summary = summarise(walk(options, fmu4), method=options.method, mi=options.mi, seed=seed)
+    assert summary.converged and not summary.fell
+    assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.06
+
+
+def test_without_the_limit_of_loads_the_payload_changes_the_feedback(fmu4: Path) -> None:
+    """F_max acts where the load exceeds half the weight, which is in every step under payload."""
+    options = WalkOptions(mi=0.15, duration=6.0, condition="C4", settings={"F_max": 100.0})
+    limited = walk(replace(options, settings={}), fmu4).controller["gamma"]
+    assert walk(options, fmu4).controller["gamma"].mean() > 1.2 * limited.mean()
+
+
+@pytest.mark.parametrize("mi", [0.08, 0.15])
+def test_walks_with_leg_rf_held_still(fmu4: Path, mi: float) -> None:
+    options = WalkOptions(mi=mi, duration=20.0, condition="C3")
+    record = walk(options, fmu4)
+    summary = summarise(record, method=options.method, mi=mi, seed=0)
+    assert not summary.fell
+    assert summary.path_speed_m_per_s is not None and summary.path_speed_m_per_s > 0.03
+    assert np.ptp(record.controller["o1"][-240:], axis=0).min() > 1.0  # none has stopped
+    assert np.ptp(record.plant["joint_angle"][-240:, 0, 1:], axis=0).max() < 0.1
 
 
 def test_without_load_feedback_no_trot_forms(fmu4: Path) -> None:
