@@ -116,16 +116,18 @@ def convergence(rows: Sequence[Row], study: str, column: str) -> Figure:
                     "line": {"color": theme.INK, "width": 1},
                 },
                 "legendgroup": method,
+                "offsetgroup": method,
             }
         )
     layout = theme.layout(
         380,
         boxmode="group",
+        scattermode="group",
         xaxis=theme.axis(
             STUDIES[study].axis_title, type="category", categoryorder="array", categoryarray=cells
         ),
         yaxis=theme.axis("convergence time [s]", rangemode="tozero", domain=[0.0, 0.68]),
-        yaxis2=theme.axis("success [%]", range=[-6, 106], domain=[0.74, 1.0]),
+        yaxis2=theme.axis("success [%]", range=[-14, 114], domain=[0.74, 1.0]),
         hovermode="closest",
     )
     note = f"By {CRITERIA[column]}. Boxes: trials that converged; marks above: their share."
