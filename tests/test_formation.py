@@ -33,11 +33,14 @@ def test_default_walk_forms_a_trot_and_keeps_it(fmu4: Path, seed: int) -> None:
     assert summary.convergence_time_s is not None and summary.convergence_time_s < 9.0
     assert not summary.fell
     assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.03
-    # the couplings hold what the strict criterion saw, and not before it was there
-    on = np.flatnonzero(record.controller["kappa"] > 0.0)
-    assert len(on)
-    stored = record.controller["phi_memory"][-1]
-    assert np.abs(metrics.wrap(stored - np.array([np.pi, np.pi, 0.0]))).max() < 0.6
+    # what is stored is the trot rather than pace, bound or legs in phase, if not to the last tenth,
+    c = record.controller
+    assert (c["kappa"] > 0.0).any()
+    away = np.abs(metrics.wrap(c["phi_memory"][-1] - np.array([np.pi, np.pi, 0.0])))
+    assert away.max() < np.pi / 4
+    # and the couplings draw the gait nearer to the trot than what they hold
+    error = metrics.phase_error(c["o1"], c["o2"], (np.pi, np.pi, 0.0))
+    assert error[-300:].max() < 0.3
 
 
 @pytest.mark.parametrize("seed", range(3))
