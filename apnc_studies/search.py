@@ -229,6 +229,7 @@ def turn_cost(fmu: Path, candidate: Candidate, seed: int, mi: float = 0.15) -> f
 
 
 MARGIN: Final = 0.93
+"""Share of the learning rates with which an oscillator under a stuck load must still stop [1]."""
 
 
 def blocked_cost(fmu: Path, candidate: Candidate, mi: float = 0.15) -> float:
@@ -237,7 +238,7 @@ def blocked_cost(fmu: Path, candidate: Candidate, mi: float = 0.15) -> float:
     Zero if it stops with learning rates a little lower, too. The rate falls towards the stop, so
     the search sees where to go.
     """
-    weight = 24.525
+    weight = load_robot("lilibot").weight
     settings = gains(candidate)
     settings |= {name: settings[name] * MARGIN for name in ("B_f", "B_s") if name in settings}
     options = WalkOptions(mi, 1.0, "apc", settings=settings)
@@ -288,7 +289,7 @@ def cost(fmu: Path, candidate: Candidate, seed: int) -> tuple[float, ...]:
     rate = RATES[seed % len(RATES)]
     loaded, damaged = LOADED[seed % len(LOADED)], DAMAGED[seed % len(DAMAGED)]
     return (
-        *(formed(Trial(mi, methods[n % 2])) for n, mi in enumerate(MI_SETS[seed % 3])),
+        *(formed(Trial(mi, methods[n % 2])) for n, mi in enumerate(MI_SETS[seed % len(MI_SETS)])),
         formed(Trial(0.08, "apnc", rate=rate), rate / 60.0),
         *(formed(Trial(mi, "apnc", "C4"), 0.8) for mi in loaded),
         damage_cost(walked(Trial(damaged, "apnc", "C3"))),

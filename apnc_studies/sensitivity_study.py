@@ -13,7 +13,7 @@ from apnc_studies.formation_study import fingerprint
 from apnc_studies.formation_table import numbers
 from apnc_studies.summary import summarise
 from apnc_studies.trial_table import Execution, Row, run_trials
-from apnc_studies.walk import WalkOptions, walk_robot
+from apnc_studies.walk import WalkOptions, walk
 from build_fmu.build import host_fmu
 from exudyn_models.description import load_robot
 from exudyn_models.robot import Body, RobotDescription
@@ -23,22 +23,20 @@ Change = Callable[[RobotDescription], RobotDescription]
 MI_VALUES: Final = (0.08, 0.16)
 
 
-def _part(part: str, field: str, factor: float) -> Change:
-    """A field of servo, contact or sensor times a factor."""
-
-    def change(robot: RobotDescription) -> RobotDescription:
-        old = getattr(robot, part)
-        new = replace(old, **{field: factor * getattr(old, field)})
-        return replace(robot, **{part: new})
-
-    return change
-
-
 def _set(part: str, field: str, value: Any) -> Change:
     """A field of servo, contact or sensor set to a value."""
 
     def change(robot: RobotDescription) -> RobotDescription:
         return replace(robot, **{part: replace(getattr(robot, part), **{field: value})})
+
+    return change
+
+
+def _part(part: str, field: str, factor: float) -> Change:
+    """A field of servo, contact or sensor times a factor."""
+
+    def change(robot: RobotDescription) -> RobotDescription:
+        return _set(part, field, factor * getattr(getattr(robot, part), field))(robot)
 
     return change
 
@@ -173,7 +171,7 @@ def run_trial(trial: Trial) -> Row:
     """
     options = WalkOptions(trial.mi, trial.duration_s, seed=trial.seed)
     robot = CHANGES[trial.change](load_robot(options.robot))
-    record = walk_robot(robot, options, host_fmu())
+    record = walk(options, host_fmu(), robot=robot)
     if not record.complete:
         raise RuntimeError(record.error)
     summary = summarise(record, method=options.method, mi=trial.mi, seed=trial.seed)

@@ -88,6 +88,7 @@ def walk(
     fmu: Path,
     progress: Progress = lambda t, controller: None,
     stop: Callable[[], bool] = lambda: False,
+    robot: RobotDescription | None = None,
 ) -> Record:
     """Walk the robot under the FMU.
 
@@ -96,29 +97,12 @@ def walk(
         fmu: the controller FMU.
         progress: called after every tick.
         stop: asked before every tick; True ends the run.
+        robot: what walks; the one that ``options.robot`` names if omitted.
 
     Raises:
         ValueError: the FMU or the robot cannot be used, or they do not fit together.
     """
-    return walk_robot(load_robot(options.robot), options, fmu, progress, stop)
-
-
-def walk_robot(
-    robot: RobotDescription,
-    options: WalkOptions,
-    fmu: Path,
-    progress: Progress = lambda t, controller: None,
-    stop: Callable[[], bool] = lambda: False,
-) -> Record:
-    """As ``walk``, with a robot that is no file.
-
-    Args:
-        robot: what walks, instead of ``options.robot``.
-        options, fmu, progress, stop: as for ``walk``.
-
-    Raises:
-        ValueError: the FMU cannot be used, or does not fit the robot.
-    """
+    robot = robot or load_robot(options.robot)
     parameters = {"robot_weight": robot.weight} | options.parameters()
     with FmuController(fmu, parameters) as controller:
         if controller.n_legs != len(robot.legs):

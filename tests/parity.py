@@ -41,7 +41,7 @@ class Comparison:
 
 def compare(path: Path, changes: dict[str, object], n_legs: int, ticks: int) -> Comparison:
     """Run both with random loads, commands, resets and sensor faults."""
-    p = Parameters(**changes)  # type: ignore[arg-type]
+    p = Parameters(**changes)  # type: ignore[arg-type]  # typed per name
     reference = Controller(p, n_legs)
     rng = np.random.default_rng(1)
     loads = random_loads(rng, ticks, n_legs, p.robot_weight)
@@ -53,7 +53,7 @@ def compare(path: Path, changes: dict[str, object], n_legs: int, ticks: int) -> 
     reset = np.zeros(len(MI), dtype=bool)
     reset[700:705] = True
     result = Comparison()
-    with FmuController(path, changes) as fmu:  # type: ignore[arg-type]
+    with FmuController(path, changes) as fmu:  # type: ignore[arg-type]  # typed per name
         for n in range(ticks):
             fmu.step(n * p.Ts, p.Ts, loads[n], MI[n], turn[n], bool(reset[n]))
             expected = reference.tick(Inputs(loads[n], MI[n], turn[n], bool(reset[n])))

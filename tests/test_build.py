@@ -117,4 +117,4 @@ def test_a_failing_compiler_is_quoted() -> None:
 )
 def test_bad_choices_are_named(choice: dict[str, object], message: str) -> None:
     with pytest.raises(BuildError, match=message):
-        BuildOptions(**choice)  # type: ignore[arg-type]
+        BuildOptions(**choice)  # type: ignore[arg-type]  # wrong on purpose

@@ -118,9 +118,9 @@ def test_unusable_load_counts_as_zero_and_is_reported_once(fmu4: Path, bad: floa
     ids=lambda v: v.name,
 )
 def test_every_range_is_enforced_by_name(fmu4: Path, v: object) -> None:
-    name = v.scalar_name(0)  # type: ignore[attr-defined]
-    high = len(v.enumeration.items) if v.enumeration else v.max  # type: ignore[attr-defined]
-    low = 1 if v.enumeration else v.min  # type: ignore[attr-defined]
+    name = v.scalar_name(0)  # type: ignore[attr-defined]  # a row
+    high = len(v.enumeration.items) if v.enumeration else v.max  # type: ignore[attr-defined]  # a row
+    low = 1 if v.enumeration else v.min  # type: ignore[attr-defined]  # a row
     for bad in (low - 1, high + 1):
         with slave(fmu4) as fmu:
             fmu.setupExperiment()
