@@ -14,8 +14,9 @@ from apnc_core.enumerations import Method
 from apnc_studies import metrics
 from apnc_studies.formation_picture import formation_svg
 from apnc_studies.formation_table import formation_markdown
+from apnc_studies.study import run_study, seeds_of
 from apnc_studies.summary import summarise
-from apnc_studies.trial_table import Execution, Row, run_trials
+from apnc_studies.trial_table import Execution, Row
 from apnc_studies.walk import WalkOptions, walk
 from build_fmu.build import host_fmu
 from exudyn_models.description import ROBOTS
@@ -79,9 +80,7 @@ def run_formation(
     """
     trials = formation_trials(seeds, mis, methods, duration)
     path = output / "formation.csv"
-    host_fmu()  # built once here, not by every process at the same time
-    rows = run_trials(trials, run_trial, path, execution)
-    (output / "formation.md").write_text(formation_markdown(rows), encoding="utf-8")
+    rows = run_study(path, trials, run_trial, formation_markdown, execution)
     (output / "formation.svg").write_text(formation_svg(rows), encoding="utf-8")
     return path
 
@@ -94,8 +93,6 @@ def formation_trials(
     Raises:
         ValueError: no seed, MI or method, or one or a duration outside what is allowed.
     """
-    if seeds < 1:
-        raise ValueError(f"trials = {seeds} is not 1 or more")
     if not mis or not methods:
         raise ValueError("at least one MI and one method are needed")
     for method in methods:
@@ -106,7 +103,7 @@ def formation_trials(
         Trial(str(Method[method].name), float(mi), seed, float(duration), known)
         for method in methods
         for mi in mis
-        for seed in range(seeds)
+        for seed in seeds_of(seeds)
     ]
 
 

@@ -13,7 +13,8 @@ from apnc_studies.formation_study import fingerprint
 from apnc_studies.formation_table import numbers, success_interval
 from apnc_studies.memory_picture import memory_svg
 from apnc_studies.scenarios import judge, run_scenario
-from apnc_studies.trial_table import Execution, Row, run_trials
+from apnc_studies.study import run_study, seeds_of
+from apnc_studies.trial_table import Execution, Row
 from build_fmu.build import host_fmu
 
 STATES: Final = ("S1", "S2", "S3")
@@ -57,15 +58,12 @@ def run_memory(output: Path, seeds: int = 20, execution: Execution | None = None
         ValueError: a value outside what is allowed, or a table that is there without ``resume``.
         OSError: a file cannot be written.
     """
-    if seeds < 1:
-        raise ValueError(f"trials = {seeds} is not 1 or more")
     known = fingerprint()
-    trials = [MemoryTrial(anc, seed, known) for anc in (1, 0) for seed in range(seeds)]
+    trials = [MemoryTrial(anc, seed, known) for anc in (1, 0) for seed in seeds_of(seeds)]
     path, how = output / "memory.csv", execution or Execution()
-    fmu = host_fmu()  # built once here, not by every process at the same time
-    rows = run_trials(trials, run_trial, path, how)
-    (output / "memory.md").write_text(memory_markdown(rows), encoding="utf-8")
+    run_study(path, trials, run_trial, memory_markdown, how)
     if not how.stop():
+        fmu = host_fmu()
         picture = memory_svg(run_scenario(fmu, 0, True), run_scenario(fmu, 0, False))
         (output / "memory.svg").write_text(picture, encoding="utf-8")
     return path

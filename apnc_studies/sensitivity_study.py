@@ -11,8 +11,9 @@ import numpy as np
 
 from apnc_studies.formation_study import fingerprint
 from apnc_studies.formation_table import numbers
+from apnc_studies.study import run_study, seeds_of
 from apnc_studies.summary import summarise
-from apnc_studies.trial_table import Execution, Row, run_trials
+from apnc_studies.trial_table import Execution, Row
 from apnc_studies.walk import WalkOptions, walk
 from build_fmu.build import host_fmu
 from exudyn_models.description import load_robot
@@ -143,8 +144,6 @@ def run_sensitivity(
         ValueError: a value outside what is allowed, or a table that is there without ``resume``.
         OSError: a file cannot be written.
     """
-    if seeds < 1:
-        raise ValueError(f"trials = {seeds} is not 1 or more")
     for name in changes:
         if name not in CHANGES:
             raise ValueError(f"change '{name}' is not one of {', '.join(CHANGES)}")
@@ -154,12 +153,10 @@ def run_sensitivity(
         Trial(change, mi, seed, float(duration), known)
         for change in changes
         for mi in MI_VALUES
-        for seed in range(seeds)
+        for seed in seeds_of(seeds)
     ]
     path = output / "sensitivity.csv"
-    host_fmu()  # built once here, not by every process at the same time
-    rows = run_trials(trials, run_trial, path, execution)
-    (output / "sensitivity.md").write_text(sensitivity_markdown(rows), encoding="utf-8")
+    run_study(path, trials, run_trial, sensitivity_markdown, execution)
     return path
 
 

@@ -29,6 +29,7 @@ study = typer.Typer(no_args_is_help=True, help="Run a study: CSV, table and pict
 INTERRUPTED = 130
 
 Trials = Annotated[int, typer.Option(help="Seeds per cell of the grid.")]
+Duration = Annotated[float, typer.Option(help="Simulated time of a trial [s].")]
 Workers = Annotated[int, typer.Option(help="Processes.")]
 Output = Annotated[Path | None, typer.Option(help="Folder for the results.")]
 Resume = Annotated[bool, typer.Option("--resume", help="Keep the trials finished before.")]
@@ -69,11 +70,22 @@ def _folder(output: Path | None, name: str) -> Path:
     return folder
 
 
-def _finish(table: Path, text: str, stop: StopRequest) -> None:
+def _run(
+    name: str,
+    output: Path | None,
+    workers: int,
+    resume: bool,
+    work: Callable[[Path, Execution], Path],
+) -> None:
+    """Run a study in its folder, with a bar, and show the text beside its table."""
+    folder, stop = _folder(output, name), StopRequest()
+    with stop.listening(), _bar(name) as progress:
+        table = work(folder, Execution(workers, resume, progress, stop))
+    text = table.with_suffix(".md").read_text(encoding="utf-8")
     out.print(text, highlight=False, markup=False, soft_wrap=True)
-    out.print(f"results: {table.parent}", highlight=False, soft_wrap=True)
+    out.print(f"results: {folder}", highlight=False, soft_wrap=True)
     if stop.asked:
-        err.print(f"interrupted; --resume continues in {table.parent}", highlight=False)
+        err.print(f"interrupted; --resume continues in {folder}", highlight=False)
         raise typer.Exit(INTERRUPTED)
 
 
@@ -84,23 +96,18 @@ def formation_command(
     mi: Annotated[
         list[float] | None, typer.Option(help="Modulatory input; repeatable. All 13 if omitted.")
     ] = None,
-    duration: Annotated[float, typer.Option(help="Simulated time of a trial [s].")] = 45.0,
+    duration: Duration = 45.0,
     workers: Workers = 2,
     output: Output = None,
     resume: Resume = False,
 ) -> None:
     """Convergence of the gait over MI on flat ground (Fig. 4)."""
-    folder, stop = _folder(output, "formation"), StopRequest()
-    with stop.listening(), _bar("formation") as progress:
-        table = run_formation(
-            folder,
-            trials,
-            tuple(mi or MI_VALUES),
-            tuple(name.strip() for name in methods.split(",")),
-            duration,
-            Execution(workers, resume, progress, stop),
-        )
-    _finish(table, (folder / "formation.md").read_text(encoding="utf-8"), stop)
+    names = tuple(name.strip() for name in methods.split(","))
+
+    def work(folder: Path, execution: Execution) -> Path:
+        return run_formation(folder, trials, tuple(mi or MI_VALUES), names, duration, execution)
+
+    _run("formation", output, workers, resume, work)
 
 
 @study.command("states")
@@ -108,10 +115,7 @@ def states_command(
     trials: Trials = 20, workers: Workers = 2, output: Output = None, resume: Resume = False
 ) -> None:
     """States S1 to S3 in detail, with a picture of one run (Fig. 9-12)."""
-    folder, stop = _folder(output, "states"), StopRequest()
-    with stop.listening(), _bar("states") as progress:
-        table = run_memory(folder, trials, Execution(workers, resume, progress, stop))
-    _finish(table, (folder / "memory.md").read_text(encoding="utf-8"), stop)
+    _run("states", output, workers, resume, lambda folder, how: run_memory(folder, trials, how))
 
 
 @study.command("sensitivity")
@@ -120,17 +124,18 @@ def sensitivity_command(
     change: Annotated[
         list[str] | None, typer.Option(help="What is changed; repeatable. All if omitted.")
     ] = None,
-    duration: Annotated[float, typer.Option(help="Simulated time of a trial [s].")] = 45.0,
+    duration: Duration = 45.0,
     workers: Workers = 2,
     output: Output = None,
     resume: Resume = False,
 ) -> None:
     """What a change of one number of the robot does to the gait."""
-    folder, stop = _folder(output, "sensitivity"), StopRequest()
-    with stop.listening(), _bar("sensitivity") as progress:
-        execution = Execution(workers, resume, progress, stop)
-        table = run_sensitivity(folder, trials, change or tuple(CHANGES), duration, execution)
-    _finish(table, (folder / "sensitivity.md").read_text(encoding="utf-8"), stop)
+    changes = change or tuple(CHANGES)
+
+    def work(folder: Path, execution: Execution) -> Path:
+        return run_sensitivity(folder, trials, changes, duration, execution)
+
+    _run("sensitivity", output, workers, resume, work)
 
 
 @study.command("contact")
