@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from exudyn_models.robot import Array
+from exudyn_models.robot.model import Array
 
 Split = Callable[[Array], Mapping[str, Array]]
 

@@ -1,0 +1,5 @@
+"""``python -m apnc`` is ``apnc``."""
+
+from apnc.cli.main import main
+
+main()

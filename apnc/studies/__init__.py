@@ -1,0 +1,1 @@
+"""The studies, and the one machine that runs them all."""

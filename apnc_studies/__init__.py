@@ -1,1 +1,0 @@
-"""Metrics, studies, reports and the command line."""

@@ -1,0 +1,305 @@
+"""A legged robot on the ground, stepped from one control tick to the next."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from exudyn_models.conditions import Conditions
+from exudyn_models.ground.terrain import Ground
+from exudyn_models.physics.engine import exu
+from exudyn_models.physics.forces import rotation_rpy
+from exudyn_models.physics.own_contact import add_own_contact, own_foot_forces
+from exudyn_models.physics.robot_forces import RobotForces
+from exudyn_models.physics.start import start_coordinates
+from exudyn_models.physics.tree import BASE, JOINT_SIGN, add_tree
+from exudyn_models.robot.model import GRAVITY, Array, RobotDescription
+from exudyn_models.sensor.load import LoadSensor
+from exudyn_models.trace import Trace
+
+CONTACTS: Final = ("compiled", "exudyn")
+TIPPED_OVER: Final = math.radians(60.0)
+
+
+class PlantError(RuntimeError):
+    """The integration broke down."""
+
+
+@dataclass(frozen=True)
+class PlantOptions:
+    """How a plant is started and integrated.
+
+    Args:
+        step: longest integration step [s]; a tick is cut into equal steps of at most this. The
+            default, 32 steps per tick at 60 Hz, is what the step-size study picked.
+        gravity: downward acceleration [m/s^2].
+        clearance: height of the lowest foot above the ground at the start [m].
+        start_hip, start_knee: joint angles of every leg at the start, relative to the reference
+            pose [rad].
+        contact: ``compiled``, or ``exudyn`` for Exudyn's own, on level ground without obstacles,
+            to hold the compiled one against.
+    """
+
+    step: float = 1.0 / 1920.0
+    gravity: float = GRAVITY
+    clearance: float = 0.0
+    start_hip: float = 0.0
+    start_knee: float = 0.0
+    contact: str = "compiled"
+
+    def __post_init__(self) -> None:
+        """Refuse a step that is not positive, values that are not finite, unknown contacts."""
+        if self.contact not in CONTACTS:
+            raise ValueError(f"contact '{self.contact}' is not one of {', '.join(CONTACTS)}")
+        if not (math.isfinite(self.step) and self.step > 0.0):
+            raise ValueError(f"step is {self.step}; allowed: a finite number above 0")
+        for name in ("gravity", "clearance", "start_hip", "start_knee"):
+            value = getattr(self, name)
+            if not math.isfinite(value):
+                raise ValueError(f"{name} is {value}; allowed: a finite number")
+
+
+class Plant:
+    """One robot in its own Exudyn system.
+
+    It stands parallel to the ground with its feet just above it, at rest. The same robot, seed,
+    ground, conditions and commands give the same motion bit for bit.
+
+    Attributes:
+        n_legs: number of legs.
+        legs: their names.
+        mass: total mass with payload [kg].
+        time: simulated time [s].
+    """
+
+    def __init__(
+        self,
+        robot: RobotDescription,
+        seed: int = 0,
+        *,
+        options: PlantOptions | None = None,
+        ground: Ground | None = None,
+        conditions: Conditions | None = None,
+    ) -> None:
+        """Put the robot on the ground.
+
+        Args:
+            robot: the robot.
+            seed: chooses the sideways error of the centre of mass and the sensor noise.
+            options: start and integration.
+            ground: what it stands on; level and smooth if omitted.
+            conditions: payload, damage and the like; none if omitted.
+
+        Raises:
+            ValueError: conditions name a leg the robot does not have.
+            PlantError: Exudyn refused the model.
+        """
+        self._robot, self._options = robot, options or PlantOptions()
+        self._ground = ground or Ground()
+        self._conditions = conditions or Conditions()
+        self.legs = tuple(leg.name for leg in robot.legs)
+        self.n_legs = len(self.legs)
+        self.mass = robot.mass + self._conditions.payload
+        self.time = 0.0
+        body_seed, noise_seed = np.random.SeedSequence(seed).spawn(2)
+        self._sensor = LoadSensor(
+            robot.sensor, self.legs, robot.weight, np.random.default_rng(noise_seed)
+        )
+        self._reading = np.zeros(self.n_legs)
+        self._corners = robot.trunk.corners()
+        self._build(_side_offset(robot, np.random.default_rng(body_seed)))
+        self.set_conditions(self._conditions)
+
+    def _build(self, side_offset: float) -> None:
+        options, robot = self._options, self._robot
+        angles = np.array([0.0, options.start_hip, options.start_knee])
+        self._start = start_coordinates(robot, self._ground, angles, options.clearance)
+        coordinates = self._start.copy()
+        coordinates[2] += self._conditions.held_at or 0.0
+        own = options.contact == "exudyn"
+        if own and (self._ground.slope or self._ground.roughness):
+            raise ValueError("contact 'exudyn' knows level ground without obstacles only")
+        self._forces = RobotForces(robot, self._ground, coordinates[BASE:], touches=not own)
+        self._commanded = coordinates[BASE:].reshape(-1, 3) * JOINT_SIGN
+        self._coming: deque[tuple[float, Array]] = deque()
+        # The container owns the system: without this reference Exudyn frees it under our feet.
+        self._container = exu.SystemContainer()
+        self._mbs: Any = self._container.AddSystem()
+        load = self._conditions.payload
+        body = robot.trunk.loaded(side_offset, load)
+        self._tree = add_tree(self._mbs, robot, body, options.gravity, coordinates, self._forces)
+        self._own_contact = add_own_contact(self._mbs, self._tree, robot.contact) if own else None
+        self._mbs.Assemble()
+        self._settings = _solver_settings(options.step)
+        self._solver: Any = exu.MainSolverExplicit()
+        if not self._solver.InitializeSolver(self._mbs, self._settings):
+            raise PlantError("Exudyn refused the model")
+        self._q, self._v = coordinates.copy(), np.zeros_like(coordinates)
+        self._measure()
+
+    def set_conditions(self, conditions: Conditions) -> None:
+        """Change what is wrong with the robot, from now on.
+
+        Raises:
+            ValueError: an unknown leg, or another payload than the plant was built with.
+        """
+        conditions.check_legs(self.legs)
+        if conditions.payload != self._conditions.payload:
+            raise ValueError(
+                f"payload is {conditions.payload} kg; allowed: {self._conditions.payload} kg, "
+                "fixed when the plant was built"
+            )
+        self._conditions = conditions
+        self._damaged = [leg in conditions.damaged for leg in self.legs]
+        self._sensor.disturb(conditions)
+        self._forces.hold(self._held_pose(conditions.held_at))
+
+    def _held_pose(self, height: float | None) -> Array | None:
+        if height is None:
+            return None
+        pose = self._start[:BASE].copy()
+        pose[[0, 1, 3]] = self._q[[0, 1, 3]]
+        pose[2] += height
+        return pose
+
+    def grf(self) -> Array:
+        """Load of each foot as the sensors deliver it since the last tick [N], shape (n_legs,)."""
+        return self._reading.copy()
+
+    def advance(self, theta_hip: Array, theta_knee: Array, duration: float) -> None:
+        """Command the servos and integrate one control tick.
+
+        Args:
+            theta_hip, theta_knee: joint targets relative to the reference pose [rad], shape
+                (n_legs,); positive swings the leg forward and lifts the foot.
+            duration: length of the tick [s].
+
+        Raises:
+            ValueError: a target is not finite or has the wrong shape, or the duration is not
+                positive.
+            PlantError: the integration diverged.
+        """
+        targets = self._checked_targets(theta_hip, theta_knee)
+        if not (math.isfinite(duration) and duration > 0.0):
+            raise ValueError(f"duration is {duration}; allowed: a finite number above 0")
+        targets[self._damaged] = 0.0
+        if self._robot.servo.slew_rate > 0.0:
+            reach = self._robot.servo.slew_rate * duration
+            targets = np.clip(targets, self._commanded - reach, self._commanded + reach)
+        self._commanded = targets
+        self._coming.append((self.time + self._robot.servo.latency, targets * JOINT_SIGN))
+        self._integrate_to(self.time + duration)
+        self._measure()
+        load = self._felt_load()
+        self._reading[:] = self._sensor.update(self.time, load, duration)
+
+    def _checked_targets(self, theta_hip: Array, theta_knee: Array) -> Array:
+        targets = np.zeros((self.n_legs, 3))
+        for column, name, value in ((1, "theta_hip", theta_hip), (2, "theta_knee", theta_knee)):
+            if np.shape(value) != (self.n_legs,) or not np.isfinite(value).all():
+                raise ValueError(f"{name} is {value}; allowed: {self.n_legs} finite angles")
+            targets[:, column] = value
+        return targets
+
+    def _felt_load(self) -> Array:
+        if self._robot.sensor.component == "norm":
+            return np.asarray(np.linalg.norm(self._forces.force.reshape(-1, 3), axis=1))
+        return self._forces.load.copy()
+
+    def _integrate_to(self, end: float) -> None:
+        while self._coming and self._coming[0][0] < end:
+            arrival, targets = self._coming.popleft()
+            if arrival > self.time:
+                self._integrate(arrival)
+            self._forces.target[:] = targets.ravel()
+        self._integrate(end)
+
+    def _integrate(self, end: float) -> None:
+        duration = end - self.time
+        steps = max(1, math.ceil(duration / self._options.step - 1e-9))
+        iteration = self._solver.it
+        iteration.maxStepSize = iteration.currentStepSize = self._forces.step = duration / steps
+        iteration.endTime = self.time = end
+        solved = self._solver.SolveSteps(self._mbs, self._settings)
+        data = self._mbs.systemData
+        self._q[:], self._v[:] = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+        if not solved or not np.isfinite(self._q).all():
+            raise PlantError(f"the motion diverged before t = {self.time:.4f} s")
+
+    def _measure(self) -> None:
+        self._forces.measure(self._q, self._v)
+        if self._own_contact is not None:
+            radius = self._robot.contact.foot_radius
+            force = own_foot_forces(self._own_contact, self._q, self._forces.geometry, radius)
+            self._forces.force[:] = force.ravel()
+            self._forces.load[:] = force[:, 2]
+
+    def trace(self, ticks: int) -> Trace:
+        """A recorder of every channel in ``recording.PLANT_CHANNELS``, a row per tick.
+
+        Args:
+            ticks: rows expected.
+        """
+        parts = (self._q, self._v, self._forces.result, self._forces.work, self._reading)
+        return Trace(parts, self._channels, ticks)
+
+    def sample(self) -> dict[str, Array]:
+        """One sample of every channel in ``recording.PLANT_CHANNELS``, at the current time."""
+        trace = self.trace(1)
+        trace.take()
+        return {name: values[0] for name, values in trace.channels().items()}
+
+    def _channels(self, rows: Array) -> dict[str, Array]:
+        n, size = self.n_legs, BASE + 3 * self.n_legs
+        ends = np.cumsum([size, size, 3 * n, 3 * n, 3 * n, n, 3 * n])
+        q, v, torque, foot, force, _, work, reading = np.split(rows, ends, axis=1)
+
+        def per_leg(values: Array) -> Array:
+            return values.reshape(-1, n, 3)
+
+        return {
+            "position": q[:, :3].copy(),
+            "rpy": q[:, [5, 4, 3]],
+            "velocity": v[:, :3].copy(),
+            "joint_angle": per_leg(q[:, BASE:]) * JOINT_SIGN,
+            "joint_speed": per_leg(v[:, BASE:]) * JOINT_SIGN,
+            "joint_torque": per_leg(torque) * JOINT_SIGN,
+            "joint_work": per_leg(work.copy()),
+            "foot_position": per_leg(foot.copy()),
+            "foot_force": per_leg(force.copy()),
+            "grf": reading.copy(),
+        }
+
+    @property
+    def fell(self) -> bool:
+        """Whether roll or pitch exceeds 60 degrees or a corner of the trunk touches the plane."""
+        yaw, pitch, roll = self._q[3:6]
+        normal = self._ground.rotation()[:, 2]
+        rotation = np.array(rotation_rpy(roll, pitch, yaw))
+        lowest = ((self._q[:3] + self._corners @ rotation.T) @ normal).min()
+        return bool(max(abs(roll), abs(pitch)) > TIPPED_OVER or lowest <= 0.0)
+
+
+def _side_offset(robot: RobotDescription, random: np.random.Generator) -> float:
+    side = random.choice([-1.0, 1.0])
+    return float(side * robot.trunk.com_side_offset * random.uniform(0.75, 1.25))
+
+
+def _solver_settings(step: float) -> Any:
+    settings = exu.SimulationSettings()
+    integration = settings.timeIntegration
+    integration.solverType = exu.DynamicSolverType.ExplicitEuler
+    integration.numberOfSteps = 1
+    integration.endTime = step
+    integration.verboseMode = 0
+    integration.explicit.useLieGroupIntegration = False
+    # Exudyn would evaluate the equations a second time per step, for accelerations nobody reads.
+    integration.explicit.computeEndOfStepAccelerations = False
+    settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
+    settings.solution.file.write = False
+    settings.solution.sensors.active = False
+    return settings

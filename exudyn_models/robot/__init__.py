@@ -1,0 +1,1 @@
+"""Robots as data, and the files they are read from."""

@@ -1,0 +1,1 @@
+"""What foot sensors make of the loads."""

@@ -1,0 +1,96 @@
+"""Learned gaits as files, and that they bring a gait back without load feedback."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from apnc.loop.memory import Gait, GaitError, gait_of_run, read_gait, write_gait
+from apnc.loop.walk import WalkOptions, save, walk
+from build_fmu.build import host_fmu
+
+GAIT = Gait(("RF", "RH", "LF", "LH"), (3.37, 3.2, 0.18))
+
+
+def walked(options: WalkOptions) -> tuple[np.ndarray, float]:
+    """Relative phases over the last second [rad] and distance [m]."""
+    record = walk(options, host_fmu())
+    start, end = record.plant["position"][[0, -1], :2]
+    return record.controller["phi"][-60:], float(np.linalg.norm(end - start))
+
+
+def test_a_stored_gait_comes_back_without_feedback_and_walks() -> None:
+    options = WalkOptions(mi=0.15, duration=12, condition="S3", settings=GAIT.settings())
+    phi, distance = walked(options)
+    assert np.abs(phi - np.array([math.pi, math.pi, 0.0])).max() < 0.3
+    blank_phi, blank_distance = walked(WalkOptions(mi=0.15, duration=12, condition="S3"))
+    assert np.abs(blank_phi).max() < 0.3  # all legs in phase: it rocks in place
+    assert distance > 10 * blank_distance
+
+
+def test_round_trip(tmp_path: Path) -> None:
+    write_gait(GAIT, tmp_path / "gait.json")
+    assert read_gait(tmp_path / "gait.json") == GAIT
+
+
+def test_gait_of_a_run_is_what_the_couplings_hold(tmp_path: Path) -> None:
+    options = WalkOptions(duration=2, settings=GAIT.settings())
+    save(walk(options, host_fmu()), options, tmp_path)
+    assert gait_of_run(tmp_path) == GAIT
+
+
+def test_a_run_without_a_stored_gait_is_refused(tmp_path: Path) -> None:
+    options = WalkOptions(duration=1)
+    save(walk(options, host_fmu()), options, tmp_path)
+    with pytest.raises(GaitError, match="no gait was stored in this run"):
+        gait_of_run(tmp_path)
+
+
+def changed(**changes: object) -> str:
+    content = {"format": "apnc-gait", "version": 1, "unit": "rad", "legs": ["RF"], "phi": []}
+    return json.dumps(content | changes)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("{", "not JSON"),
+        ("[1, 2]", "is not a gait file"),
+        ('{"format": "other"}', "is not a gait file"),
+        (changed(version=2), "has version 2; 1 is known"),
+        (changed(), "checksum does not fit"),
+        (changed(sha256="0" * 64), "checksum does not fit"),
+    ],
+)
+def test_foreign_and_damaged_files_are_refused(text: str, words: str, tmp_path: Path) -> None:
+    path = tmp_path / "gait.json"
+    path.write_text(text)
+    with pytest.raises(GaitError, match=words):
+        read_gait(path)
+
+
+def test_one_changed_digit_is_noticed(tmp_path: Path) -> None:
+    path = tmp_path / "gait.json"
+    write_gait(GAIT, path)
+    path.write_text(path.read_text().replace("3.37", "3.38"))
+    with pytest.raises(GaitError, match="damaged"):
+        read_gait(path)
+
+
+def test_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(GaitError, match=r"no\.json cannot be read"):
+        read_gait(tmp_path / "no.json")
+
+
+@pytest.mark.parametrize(
+    ("phi", "words"),
+    [((1.0,), "1 relations do not fit 4 legs"), ((1.0, math.nan, 0.0), "relation of leg LF is nan"),
+     ((1.0, 2.0, 99.0), "relation of leg LH is 99.0")],
+)  # fmt: skip
+def test_unusable_relations_are_refused(phi: tuple[float, ...], words: str) -> None:
+    with pytest.raises(GaitError, match=words):
+        Gait(GAIT.legs, phi)

@@ -1,0 +1,197 @@
+"""The compiled forces against closed form: contact law, leverage of the feet, obstacles."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exudyn_models.ground.terrain import STEP_HEIGHT, TILE, Ground
+from exudyn_models.physics.forces import contact_force
+from exudyn_models.physics.robot_forces import RobotForces
+from exudyn_models.physics.tree import BASE
+from exudyn_models.robot.file import load_robot
+
+ROBOT = load_robot("lilibot")
+UP = (0.0, 0.0, 1.0)
+# radius, stiffness, damping, damping depth, friction, friction speed
+CONTACT = np.array([0.012, 20000.0, 400.0, 2e-4, 0.5, 0.03])
+
+
+@pytest.mark.parametrize(
+    ("depth", "approach", "expected"),
+    [
+        (1e-3, 0.0, 20.0),
+        (1e-3, 0.1, 60.0),
+        (1e-4, 0.1, 2.0 + 0.5 * 40.0),
+        (1e-9, 1.0, 0.0),
+        (1e-3, -0.04, 4.0),
+        (1e-3, -0.06, 0.0),
+    ],
+)
+def test_normal_force(depth: float, approach: float, expected: float) -> None:
+    force, press = contact_force(CONTACT, UP, depth, (0.0, 0.0, -approach))
+    assert press == pytest.approx(expected, abs=3e-3)
+    np.testing.assert_allclose(force, [0.0, 0.0, press], atol=1e-12)
+
+
+@pytest.mark.parametrize(("speed", "share"), [(0.0, 0.0), (0.015, 0.5), (0.03, 1.0), (3.0, 1.0)])
+def test_friction_is_regularised_coulomb_against_the_motion(speed: float, share: float) -> None:
+    velocity = (0.6 * speed, -0.8 * speed, 0.0)
+    force, press = contact_force(CONTACT, UP, 1e-3, velocity)
+    np.testing.assert_allclose(force[:2], 0.5 * press * share * np.array([-0.6, 0.8]), atol=1e-12)
+
+
+def bent(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates and speeds of a robot in some twisted motion, its feet in the ground."""
+    random = np.random.default_rng(seed)
+    q = np.concatenate([random.uniform(-1, 1, 2), [0.1], random.uniform(-0.5, 0.5, 3)])
+    return np.concatenate([q, random.uniform(-0.4, 0.4, 12)]), random.uniform(-0.3, 0.3, 18)
+
+
+def at(forces: RobotForces, q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, ...]:
+    forces.target[:] = q[BASE:]
+    forces.measure(q, v)
+    generalized = forces._measured[: len(q)].copy()
+    generalized[BASE:] -= forces.torque
+    return generalized, forces.foot.reshape(-1, 3).copy(), forces.force.reshape(-1, 3).copy()
+
+
+def test_a_force_on_a_foot_moves_the_robot_as_the_foot_moves() -> None:
+    # Virtual work: for a frictionless ball the force acts through its centre, so Q = J^T f with
+    # the Jacobian of the centre, here by central differences.
+    smooth = replace(ROBOT, contact=replace(ROBOT.contact, friction=0.0, damping=0.0))
+    forces = RobotForces(smooth, Ground(slope=0.2), np.zeros(12))
+    for seed in range(5):
+        q, v = bent(seed)
+        q[2] += q[0] * math.tan(0.2)
+        generalized, _, force = at(forces, q, v)
+        assert np.abs(force).max() > 1.0
+        expected = np.zeros(18)
+        for i in range(18):
+            step = np.zeros(18)
+            step[i] = 1e-6
+            moved = (at(forces, q + step, v)[1] - at(forces, q - step, v)[1]) / 2e-6
+            expected[i] = (moved * force).sum()
+        np.testing.assert_allclose(generalized, expected, rtol=1e-6, atol=1e-6)
+
+
+def test_friction_and_damping_take_power_out_of_the_robot() -> None:
+    # P = Q . v must be what the contact law loses at the speed of the contact point; with a rigid
+    # twist of the whole robot that speed is known without any leg kinematics.
+    forces = RobotForces(ROBOT, Ground(), np.zeros(12))
+    q, _ = bent(1)
+    q[3:BASE] = 0.0
+    q[2] = 0.12
+    spin, drift = np.array([0.3, -0.2, 0.5]), np.array([0.1, -0.05, -0.02])
+    v = np.concatenate([drift, spin[::-1], np.zeros(12)])
+    generalized, feet, force = at(forces, q, v)
+    points = feet - [0.0, 0.0, ROBOT.contact.foot_radius]
+    speeds = drift + np.cross(spin, points - q[:3])
+    assert (force[:, 2] > 0.0).any()
+    assert generalized @ v == pytest.approx((force * speeds).sum(), rel=1e-9)
+    for f, s in zip(force, speeds, strict=True):
+        slip = np.hypot(*s[:2])
+        share = min(1.0, slip / ROBOT.contact.friction_speed)
+        expected = -ROBOT.contact.friction * f[2] * share * s[:2] / slip
+        np.testing.assert_allclose(f[:2], expected, rtol=1e-9, atol=1e-12)
+
+
+def one_foot_at(forces: RobotForces, place: np.ndarray) -> np.ndarray:
+    """Force on foot RF when its centre is put at a place, the robot at rest."""
+    q = np.zeros(18)
+    q[:3] = place - at(forces, q, np.zeros(18))[1][0]
+    return at(forces, q, np.zeros(18))[2][0]
+
+
+def by_hand(obstacles: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """The same from all obstacles, one by one: stiffness times overlap, away from the centre."""
+    contact = ROBOT.contact
+    force = np.array([0.0, 0.0, max(0.0, contact.foot_radius - place[2]) * contact.stiffness])
+    for x, y, z, radius in obstacles:
+        away = place - [x, y, z]
+        away[:2] -= TILE * np.round(away[:2] / TILE)
+        overlap = radius + contact.foot_radius - np.linalg.norm(away)
+        force += max(0.0, overlap) * contact.stiffness * away / np.linalg.norm(away)
+    return force
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_feet_are_pushed_away_from_the_centre_of_every_obstacle_they_touch(seed: int) -> None:
+    ground = Ground(roughness=1.0, seed=seed, density=200.0)
+    forces = RobotForces(ROBOT, ground, np.zeros(12))
+    obstacles = ground.obstacles()
+    random = np.random.default_rng(seed)
+    touched = 0
+    for _ in range(100):
+        place = np.append(random.uniform(-9.0, 9.0, 2), random.uniform(0.011, 0.025))
+        expected = by_hand(obstacles, place)
+        np.testing.assert_allclose(one_foot_at(forces, place), expected, atol=1e-6)
+        touched += np.hypot(*expected[:2]) > 0.1
+    assert touched > 10
+
+
+def test_obstacles_go_on_without_end() -> None:
+    forces = RobotForces(ROBOT, Ground(roughness=1.0), np.zeros(12))
+    x, y, z, radius = Ground(roughness=1.0).obstacles()[5]
+    near = np.array([x + 0.003, y, z + radius + 0.0118])
+    far = near + np.array([250 * TILE, -100 * TILE, 0.0])
+    assert np.linalg.norm(one_foot_at(forces, near)) > 5e-5 * ROBOT.contact.stiffness
+    np.testing.assert_allclose(one_foot_at(forces, far), one_foot_at(forces, near), rtol=1e-6)
+
+
+def test_no_ground_is_missed_at_the_seam_of_cells() -> None:
+    forces = RobotForces(ROBOT, Ground(roughness=1.0), np.zeros(12))
+    of_the_plane = 0.001 * ROBOT.contact.stiffness
+    for x in (-1e-20, 0.0, TILE, -TILE, np.nextafter(TILE, 0.0)):
+        assert one_foot_at(forces, np.array([x, -1e-20, 0.011]))[2] >= of_the_plane - 1e-6
+
+
+@pytest.mark.parametrize("roughness", [0.2, 1.0])
+def test_obstacles_have_the_height_and_density_asked_for(roughness: float) -> None:
+    ground = Ground(roughness=roughness, seed=3)
+    balls = ground.obstacles()
+    np.testing.assert_allclose(balls[:, 2] + balls[:, 3], roughness * STEP_HEIGHT, atol=1e-15)
+    assert len(balls) == 960
+    diameters = 2.0 * balls[:, 3]
+    assert 0.03 <= diameters.min() < 0.031
+    assert 0.099 < diameters.max() <= 0.1
+    # Uniform: the mean of 960 diameters is within 4 standard errors of 65 mm.
+    assert diameters.mean() == pytest.approx(0.065, abs=4 * 0.07 / math.sqrt(12 * 960))
+
+
+def test_obstacles_cover_the_share_of_ground_that_chance_gives() -> None:
+    # Caps of base radius a thrown at random leave free a share of exp(-density pi E[a^2]).
+    ground = Ground(roughness=1.0, seed=7)
+    balls = ground.obstacles()
+    base = balls[:, 3] ** 2 - balls[:, 2] ** 2
+    free = math.exp(-ground.density * math.pi * base.mean())
+    points = np.random.default_rng(0).uniform(0.0, TILE, (4000, 1, 2))
+    offset = points - balls[None, :, :2]
+    offset -= TILE * np.round(offset / TILE)
+    covered = ((offset**2).sum(axis=2) < base).any(axis=1).mean()
+    assert covered == pytest.approx(1.0 - free, abs=0.03)
+
+
+def test_obstacles_are_seeded() -> None:
+    same, other = Ground(roughness=1.0, seed=1), Ground(roughness=1.0, seed=2)
+    np.testing.assert_array_equal(same.obstacles(), Ground(roughness=1.0, seed=1).obstacles())
+    assert not np.array_equal(same.obstacles(), other.obstacles())
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"slope": 1.6}, "slope is 1.6"),
+        ({"slope": math.nan}, "slope is nan"),
+        ({"roughness": -0.1}, "roughness is -0.1"),
+        ({"roughness": 1.1}, "roughness is 1.1"),
+        ({"seed": -1}, "seed is -1"),
+        ({"density": 0.0}, "density is 0"),
+        ({"diameters": (0.02, 0.1)}, "diameters are 0.02"),
+        ({"diameters": (0.1, 0.05)}, "diameters are 0.1"),
+    ],
+)
+def test_ground_out_of_range_is_refused(values: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        Ground(**values)  # type: ignore[arg-type]

@@ -1,0 +1,274 @@
+"""The plant against statics, closed form and itself."""
+
+import contextlib
+import gc
+import io
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from apnc.loop.recording import PLANT_CHANNELS
+from exudyn_models.physics.engine import exu
+from exudyn_models.physics.plant import Plant, PlantError, PlantOptions
+from exudyn_models.robot.file import ROBOTS, load_robot
+from exudyn_models.robot.model import RobotDescription
+
+TICK = 1 / 60
+DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
+ROBOT = load_robot("lilibot")
+
+
+def stand(robot: RobotDescription, seconds: float = 2.0) -> Plant:
+    plant = Plant(robot)
+    for _ in range(round(seconds / TICK)):
+        plant.advance(np.zeros(plant.n_legs), np.zeros(plant.n_legs), TICK)
+    return plant
+
+
+def trot(plant: Plant, tick: int, duration: float = TICK) -> None:
+    phase = 0.12 * tick
+    hip = 0.13 * np.sin(phase) * DIAGONAL - 0.111
+    knee = 0.08 * np.cos(phase) * DIAGONAL - 0.039
+    plant.advance(hip, knee, duration)
+
+
+def coordinates(plant: Plant) -> np.ndarray:
+    sample = plant.sample()
+    return np.concatenate([np.ravel(value) for value in sample.values()])
+
+
+def test_sample_has_every_channel_in_its_shape() -> None:
+    sample = stand(ROBOT, 0.1).sample()
+    assert {name: value.shape for name, value in sample.items()} == {
+        channel.name: channel.shape(4) for channel in PLANT_CHANNELS
+    }
+
+
+def test_at_rest_the_ground_carries_the_weight_and_nothing_slides() -> None:
+    plant = stand(ROBOT)
+    sample = plant.sample()
+    force = sample["foot_force"]
+    assert force[:, 2].sum() == pytest.approx(plant.mass * 9.81, rel=1e-4)
+    assert force[:, 2].min() > 1.0
+    assert np.abs(force[:, :2]).max() < 0.01
+    assert np.abs(sample["velocity"]).max() < 1e-5
+    assert np.abs(sample["joint_speed"]).max() < 1e-4
+    assert not plant.fell
+
+
+def test_feet_sink_in_by_load_over_stiffness() -> None:
+    sample = stand(ROBOT).sample()
+    penetration = ROBOT.contact.foot_radius - sample["foot_position"][:, 2]
+    expected = sample["foot_force"][:, 2] / ROBOT.contact.stiffness
+    np.testing.assert_allclose(penetration, expected, rtol=1e-3)
+
+
+def test_at_rest_the_sensor_delivers_the_load() -> None:
+    quiet = replace(ROBOT, sensor=replace(ROBOT.sensor, noise=0.0))
+    plant = stand(quiet)
+    np.testing.assert_allclose(plant.grf(), plant.sample()["foot_force"][:, 2], rtol=1e-3)
+
+
+def test_the_load_arrives_late_and_smoothed() -> None:
+    quiet = replace(ROBOT, sensor=replace(ROBOT.sensor, noise=0.0, delay=0.05))
+    plant = Plant(quiet)
+    loads, readings = [np.zeros(4)] * 3, []
+    for tick in range(60):
+        trot(plant, tick)
+        loads.append(plant.sample()["foot_force"][:, 2])
+        readings.append(plant.grf())
+    for (before, now), late in zip(pairwise(readings), loads[1:], strict=False):
+        np.testing.assert_allclose(now, 0.4 * before + 0.6 * late, atol=2e-3)
+
+
+def test_free_fall() -> None:
+    plant = Plant(ROBOT, options=PlantOptions(clearance=1.0, step=2e-5))
+    start = plant.sample()["position"]
+    plant.advance(np.zeros(4), np.zeros(4), 0.3)
+    fallen = start - plant.sample()["position"]
+    np.testing.assert_allclose(fallen, [0.0, 0.0, 9.81 * 0.3**2 / 2], atol=5e-5)
+    assert plant.sample()["velocity"][2] == pytest.approx(-9.81 * 0.3, rel=1e-6)
+
+
+def test_a_dropped_robot_lands_and_stays_on_its_feet() -> None:
+    plant = Plant(ROBOT, options=PlantOptions(clearance=0.03))
+    for _ in range(120):
+        plant.advance(np.zeros(4), np.zeros(4), TICK)
+    assert plant.sample()["foot_force"][:, 2].sum() == pytest.approx(plant.mass * 9.81, rel=1e-3)
+    assert not plant.fell
+
+
+def test_recorded_feet_are_where_the_engine_has_them() -> None:
+    plant = Plant(ROBOT)
+    for tick in range(90):
+        trot(plant, tick)
+    markers = [
+        plant._mbs.GetMarkerOutput(foot, variableType=exu.OutputVariableType.Position)
+        for foot in plant._tree.feet
+    ]
+    np.testing.assert_allclose(plant.sample()["foot_position"], markers, atol=1e-12)
+
+
+def forces_while_walking(robot: RobotDescription, step: float) -> np.ndarray:
+    """Foot forces at every step of two seconds of trot, after one to get going."""
+    plant = Plant(robot, options=PlantOptions(step=step))
+    for tick in range(60):
+        trot(plant, tick)
+    forces = []
+    steps = round(TICK / step)
+    for tick in range(60, 180):
+        for _ in range(steps):
+            trot(plant, tick, TICK / steps)
+            forces.append(plant.sample()["foot_force"])
+    return np.array(forces)
+
+
+def chatter(forces: np.ndarray) -> float:
+    """Share of loaded samples at which a lateral force turns round twice in two steps."""
+    loaded = forces[2:, :, 2] > 1.0
+    change = np.diff(forces[:, :, :2], axis=0)
+    sharp = np.abs(change) > 0.1
+    turned = (change[1:] * change[:-1] < 0.0) & sharp[1:] & sharp[:-1]
+    return float((turned.any(axis=2) & loaded).sum() / loaded.sum())
+
+
+def test_walking_feet_do_not_chatter_stick_to_the_ground_or_leave_the_friction_cone() -> None:
+    forces = forces_while_walking(ROBOT, PlantOptions().step)
+    assert chatter(forces) < 0.01
+    assert forces[:, :, 2].min() == 0.0
+    loaded = forces[:, :, 2] > 1.0
+    tangential = np.hypot(forces[:, :, 0], forces[:, :, 1])[loaded]
+    assert (tangential <= (1.0 + 1e-9) * ROBOT.contact.friction * forces[:, :, 2][loaded]).all()
+
+
+def test_chatter_would_be_seen() -> None:
+    stiff = replace(ROBOT, contact=replace(ROBOT.contact, friction_speed=0.002))
+    assert chatter(forces_while_walking(stiff, PlantOptions().step)) > 0.1
+
+
+def test_an_open_loop_trot_walks_forward() -> None:
+    plant = Plant(ROBOT)
+    for tick in range(360):
+        trot(plant, tick)
+    assert 0.2 < plant.sample()["position"][0] < 0.7
+    assert not plant.fell
+
+
+def test_the_default_step_is_fine_enough() -> None:
+    ends = []
+    for step in (PlantOptions().step, PlantOptions().step / 4):
+        plant = Plant(ROBOT, options=PlantOptions(step=step))
+        for tick in range(180):
+            trot(plant, tick)
+        ends.append(plant.sample()["position"])
+    np.testing.assert_allclose(ends[0], ends[1], atol=0.003)
+
+
+def test_same_seed_same_motion_bit_for_bit() -> None:
+    ends = []
+    for seed in (3, 3, 4):
+        plant = Plant(ROBOT, seed)
+        for tick in range(60):
+            trot(plant, tick)
+        ends.append(coordinates(plant))
+    np.testing.assert_array_equal(ends[0], ends[1])
+    assert not np.array_equal(ends[0], ends[2])
+
+
+def test_plants_in_one_process_do_not_touch_each_other() -> None:
+    alone = Plant(ROBOT, 1)
+    for tick in range(60):
+        trot(alone, tick)
+    first, other = Plant(ROBOT, 1), Plant(ROBOT, 2)
+    for tick in range(60):
+        trot(first, tick)
+        if tick < 30:
+            other.advance(np.full(4, 0.3), np.full(4, -0.3), TICK / 2)
+        elif tick == 30:
+            del other
+            gc.collect()
+    np.testing.assert_array_equal(coordinates(first), coordinates(alone))
+
+
+def test_time_adds_up_over_uneven_ticks() -> None:
+    plant = Plant(ROBOT)
+    for duration in (TICK, 0.01, 1e-4, 0.0333, 1e-6):
+        plant.advance(np.zeros(4), np.zeros(4), duration)
+    assert plant.time == pytest.approx(TICK + 0.01 + 1e-4 + 0.0333 + 1e-6, abs=1e-15)
+    assert plant._mbs.systemData.GetTime() == pytest.approx(plant.time, abs=1e-12)
+
+
+def test_a_fallen_robot_is_noticed() -> None:
+    assert not Plant(ROBOT).fell
+    # Legs folded up past the trunk: its lower corners are below the feet.
+    assert Plant(ROBOT, options=PlantOptions(start_hip=-0.8, start_knee=2.5)).fell
+
+
+def test_six_legs_are_another_file(tmp_path: Path) -> None:
+    text = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
+    middle = '[[legs]]\nname = "{}M"\nhip = [0.0, {}, 0.0]\n\n'
+    more = middle.format("R", -0.066) + middle.format("L", 0.066) + "[servo]"
+    path = tmp_path / "hexapod.toml"
+    path.write_text(text.replace("[servo]", more), encoding="utf-8")
+    plant = stand(load_robot(str(path)))
+    assert plant.legs == ("RF", "RH", "LF", "LH", "RM", "LM")
+    assert plant.mass == pytest.approx(3.1)
+    assert plant.sample()["foot_force"][:, 2].sum() == pytest.approx(3.1 * 9.81, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("hip", "duration", "message"),
+    [
+        (np.zeros(3), TICK, "theta_hip"),
+        (np.full(4, np.nan), TICK, "theta_hip"),
+        (np.zeros(4), 0.0, "duration"),
+        (np.zeros(4), np.inf, "duration"),
+    ],
+)
+def test_bad_commands_are_refused(hip: np.ndarray, duration: float, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        Plant(ROBOT).advance(hip, np.zeros(4), duration)
+
+
+def test_bad_options_are_refused() -> None:
+    with pytest.raises(ValueError, match="step is 0"):
+        PlantOptions(step=0.0)
+
+
+def test_divergence_is_reported() -> None:
+    plant = Plant(ROBOT, options=PlantOptions(step=TICK))
+    with pytest.raises(PlantError, match="diverged"):
+        for tick in range(600):
+            trot(plant, tick)
+
+
+def test_stdout_stays_quiet(capfd: pytest.CaptureFixture[str]) -> None:
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        stand(ROBOT, 0.1)
+    assert printed.getvalue() == ""
+    assert capfd.readouterr() == ("", "")
+
+
+def test_the_hexapod_stands_on_all_six_feet() -> None:
+    plant = stand(load_robot("hexapod"))
+    assert plant.legs == ("RF", "RM", "RH", "LF", "LM", "LH")
+    force = plant.sample()["foot_force"]
+    assert force[:, 2].sum() == pytest.approx(plant.mass * 9.81, rel=1e-3)
+    assert force[:, 2].min() > 1.0
+    np.testing.assert_allclose(plant.sample()["rpy"], 0.0, atol=0.05)
+    assert not plant.fell
+
+
+def test_the_hexapod_walks_on_alternating_tripods() -> None:
+    plant = Plant(load_robot("hexapod"))
+    tripods = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+    for tick in range(360):
+        phase = 0.12 * tick
+        hip = 0.13 * np.sin(phase) * tripods - 0.111
+        knee = 0.08 * np.cos(phase) * tripods - 0.039
+        plant.advance(hip, knee, TICK)
+    assert 0.2 < plant.sample()["position"][0] < 0.7
+    assert not plant.fell

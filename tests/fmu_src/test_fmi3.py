@@ -1,0 +1,171 @@
+"""The FMI 3.0 build: valid, the same controller as the FMI 2.0 build, arrays, refusals."""
+
+from __future__ import annotations
+
+import io
+import shutil
+import tempfile
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy import fmi3
+from fmpy.fmi1 import FMICallException
+from fmpy.validation import validate_fmu
+from lxml import etree
+from parity import random_loads
+
+from apnc.loop.fmu_controller import FmuController
+from apnc_core.schema import VR_TIME, Causality, Type
+from apnc_core.variables import TABLE, scalars
+from build_fmu.build import fmu_bytes, host_fmu
+from build_fmu.options import BuildOptions
+
+TS = 1 / 60
+REFERENCE = {v.name: 100 * n for n, v in enumerate(TABLE)}
+
+
+@contextmanager
+def slave3(legs: int, token: str | None = None) -> Iterator[Any]:
+    path = host_fmu(legs, fmi=3)
+    description = fmpy.read_model_description(str(path))
+    folder = tempfile.mkdtemp(prefix="apnc-test-")
+    fmpy.extract(str(path), unzipdir=folder)
+    try:
+        fmu = fmi3.FMU3Slave(
+            guid=token or description.instantiationToken,
+            unzipDirectory=folder,
+            modelIdentifier="Apnc",
+            instanceName="test",
+        )
+        fmu.messages = []
+        fmu.instantiate(
+            loggingOn=True,
+            logMessage=fmi3.fmi3LogMessageCallback(
+                lambda env, status, kind, text: fmu.messages.append(text.decode())
+            ),
+        )
+        yield fmu
+        fmu.freeInstance()
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def start(fmu: Any) -> None:
+    fmu.enterInitializationMode(startTime=0.0)
+    fmu.exitInitializationMode()
+
+
+@pytest.mark.parametrize("legs", [4, 6, 8])
+def test_valid_by_fmpy_and_by_the_schema(legs: int, tmp_path: Path) -> None:
+    fmu = fmu_bytes(BuildOptions(legs=legs, platforms=(), fmi=3))
+    path = tmp_path / "Apnc.fmu"
+    path.write_bytes(fmu)
+    assert validate_fmu(str(path)) == []
+    schemas = Path(fmpy.__file__).parent / "schema" / "fmi3"
+    for name, schema in (
+        ("modelDescription.xml", "fmi3ModelDescription.xsd"),
+        ("sources/buildDescription.xml", "fmi3BuildDescription.xsd"),
+    ):
+        with zipfile.ZipFile(io.BytesIO(fmu)) as archive:
+            root = etree.fromstring(archive.read(name))
+        etree.XMLSchema(etree.parse(str(schemas / schema))).assertValid(root)
+
+
+@pytest.mark.parametrize("legs", [4, 6, 8])
+def test_gives_what_the_fmi2_build_gives(legs: int) -> None:
+    loads = random_loads(np.random.default_rng(3), 600, legs, 24.525)
+    reals = [
+        v for v in TABLE if v.causality in (Causality.output, Causality.local)
+        and v.type is Type.real
+    ]  # fmt: skip
+    with slave3(legs) as three, FmuController(host_fmu(legs)) as two:
+        start(three)
+        for n in range(600):
+            three.setFloat64([REFERENCE["grf"]], loads[n].tolist())
+            three.setFloat64([REFERENCE["MI"], REFERENCE["turn"]], [0.15, 0.2])
+            three.doStep(n * TS, TS)
+            two.step(n * TS, TS, loads[n], 0.15, 0.2, False)
+            expected = two.sample()
+            count = sum(v.count(legs) for v in reals)
+            values = three.getFloat64([REFERENCE[v.name] for v in reals], nValues=count)
+            assert values == np.concatenate([expected[v.name].ravel() for v in reals]).tolist()
+        assert three.getInt32([REFERENCE["tick"]]) == [600]
+        assert three.getFloat64([VR_TIME]) == pytest.approx([10.0])
+        assert three.getBoolean([REFERENCE["fault"]], nValues=legs) == [False] * legs
+
+
+def test_stored_gait_enumeration_and_boolean_can_be_set() -> None:
+    with slave3(4) as fmu:
+        fmu.enterInitializationMode(startTime=0.0)
+        fmu.setInt64([REFERENCE["method"]], [1])
+        fmu.setBoolean([REFERENCE["stored"]], [True])
+        fmu.setFloat64([REFERENCE["phi_stored"]], [3.0, 3.2, 0.1])
+        fmu.exitInitializationMode()
+        assert fmu.getFloat64([REFERENCE["phi_memory"]], nValues=3) == [3.0, 3.2, 0.1]
+        assert fmu.getFloat64([REFERENCE["kappa"]]) == [1.0]
+
+
+def test_saved_state_continues_bit_for_bit() -> None:
+    with slave3(4) as fmu:
+        start(fmu)
+
+        def go_on() -> list[float]:
+            seen: list[float] = []
+            for n in range(50, 100):
+                fmu.setFloat64([REFERENCE["grf"]], [n % 7, n % 5, n % 3, n % 11])
+                fmu.doStep(n * TS, TS)
+                seen += fmu.getFloat64([REFERENCE["o1"], REFERENCE["gamma"]], nValues=8)
+            return seen
+
+        fmu.doStep(0.0, 50 * TS)
+        state = fmu.getFMUState()
+        blob = fmu.serializeFMUState(state)
+        first = go_on()
+        fmu.setFMUState(state)
+        assert go_on() == first
+        fmu.setFMUState(fmu.deserializeFMUState(blob))
+        assert go_on() == first
+        fmu.freeFMUState(state)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda f: f.setFloat64([REFERENCE["grf"]], [1.0, 2.0]), "too few values"),
+        (lambda f: f.setFloat64([REFERENCE["MI"]], [1.0, 2.0]), "too many values"),
+        (lambda f: f.setFloat64([REFERENCE["MI"] + 1], [1.0]), "no variable of this type"),
+        (lambda f: f.setFloat64([REFERENCE["method"]], [1.0]), "no variable of this type"),
+        (lambda f: f.setFloat64([VR_TIME], [1.0]), "no variable"),
+        (lambda f: f.setInt64([REFERENCE["method"]], [2**40]), "method = "),
+        (lambda f: f.setFloat64([REFERENCE["o1"]], [0.0] * 4), "output"),
+        (lambda f: f.setFloat64([REFERENCE["Ts"]], [0.01]), "fixed"),
+        (lambda f: f.getFloat32([REFERENCE["MI"]]), "not offered"),
+        (lambda f: f.enterEventMode(), "not offered"),
+        (lambda f: f.enterConfigurationMode(), "not offered"),
+        (lambda f: f.enterInitializationMode(), "not allowed"),
+        (lambda f: f.doStep(5.0, TS), "step starts at 5 s"),
+    ],
+)
+def test_wrong_calls_are_refused_with_a_message(call: Any, words: str) -> None:
+    with slave3(4) as fmu:
+        start(fmu)
+        with pytest.raises(FMICallException):
+            call(fmu)
+        assert words in fmu.messages[-1]
+        fmu.doStep(0.0, TS)
+
+
+def test_wrong_token_is_refused() -> None:
+    with pytest.raises(Exception, match="instantiate"), slave3(4, token="{wrong}"):
+        pass
+
+
+def test_value_references_are_those_of_fmi2() -> None:
+    of_first_entries = {s.variable.name: s.value_reference for s in scalars() if s.element == 0}
+    assert of_first_entries == REFERENCE

@@ -1,0 +1,63 @@
+"""Random calls of the whole interface under AddressSanitizer, LeakSanitizer and UBSan."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from raw_fmu import Library
+
+NATIVE = Path(__file__).parents[1] / "support" / "native"
+SHORT, LONG = 250_000, 10_000_000
+"""Calls per seed."""
+
+
+@pytest.fixture(scope="session")
+def fuzz(library: Library, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The fuzz driver together with the sources as they are shipped, under the sanitizers."""
+    compiler = shutil.which("gcc") or shutil.which("clang")
+    if compiler is None:
+        pytest.skip("gcc and clang are missing (Debian package gcc)")
+    program = tmp_path_factory.mktemp("fuzz") / "fuzz"
+    sources = library.folder / "sources"
+    command = [compiler, "-std=c11", "-g", "-O1", "-fno-omit-frame-pointer"]
+    command += ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", f"-I{sources}"]
+    command += [*map(str, sorted(sources.glob("*.c"))), str(NATIVE / "fuzz.c")]
+    done = subprocess.run(
+        [*command, "-o", str(program), "-lm"], capture_output=True, text=True, check=False
+    )
+    if "cannot find" in done.stderr and "asan" in done.stderr:
+        pytest.skip("the sanitizers' run time is missing (Debian package libasan8 or libclang-rt)")
+    assert done.returncode == 0, done.stderr
+    return program
+
+
+def run(program: Path, seed: int, calls: int) -> dict[str, int]:
+    """What the driver counted; a fault of any sanitizer fails the test with its report."""
+    done = subprocess.run(
+        [str(program), str(seed), str(calls)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, f"seed {seed}: {done.stdout}{done.stderr}"
+    return {what: int(n) for n, what in re.findall(r"(\d+) (\w+)", done.stdout)}
+
+
+def check(program: Path, seed: int, calls: int) -> None:
+    counted = run(program, seed, calls)
+    assert counted["calls"] >= calls
+    # the calls got somewhere: much was accepted, much refused, and there was a lot of walking
+    assert counted["ok"] > 0.3 * calls and counted["error"] > 0.3 * calls
+    assert counted["ticks"] > calls and counted["warning"] > 0 and counted["discard"] > 0
+
+
+@pytest.mark.parametrize("seed", range(1, 5))
+def test_a_million_random_calls(fuzz: Path, seed: int) -> None:
+    check(fuzz, seed, SHORT)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(101, 111))
+def test_a_hundred_million_random_calls(fuzz: Path, seed: int) -> None:
+    check(fuzz, seed, LONG)

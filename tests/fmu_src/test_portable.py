@@ -1,0 +1,282 @@
+"""The binaries of all platforms: what they export and need, and that they really run."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from native_driver import HEADERS, OUTPUTS, drive, drive3
+from slave import TS, slave
+
+from apnc_core.enumerations import KappaRule, Method
+from build_fmu.build import cached_fmu, fmu_bytes, host_fmu
+from build_fmu.options import MODEL, PLATFORMS, BuildOptions, host_platform
+
+lief = pytest.importorskip("lief", reason="lief is missing (PyPI package lief)")
+
+LINUX = ["linux64", "aarch64-linux"]
+MAC = ["darwin64", "aarch64-darwin"]
+MINUTE = 3600
+ALWAYS_COUPLED = {"kappa_rule": KappaRule.printed.value}
+LINKERS_OWN = {"__dso_handle", "_mh_dylib_header"}
+"""Marks that zig's linker sets in every Mach-O library and has no option to hide."""
+
+
+@pytest.fixture(scope="session")
+def everywhere() -> Path:
+    return cached_fmu(BuildOptions())
+
+
+@pytest.fixture(scope="session")
+def unpacked(everywhere: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("everywhere")
+    with zipfile.ZipFile(everywhere) as archive:
+        archive.extractall(folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def scratch(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("native")
+
+
+def library_path(unpacked: Path, platform: str) -> Path:
+    return unpacked / "binaries" / platform / (MODEL + PLATFORMS[platform].suffix)
+
+
+def standard_functions(fmi: int = 2) -> set[str]:
+    """Functions of co-simulation, from the header of the standard."""
+    header = (HEADERS / f"fmi{fmi}Functions.h").read_text()
+    if fmi == 3:  # every library offers those of all kinds of FMU
+        return set(re.findall(r"FMI3_Export\s+\w+TYPE\s+(\w+);", header))
+    common = header[header.rindex("\nCommon Functions") :]  # behind the renaming macros
+    before, _, rest = common.partition("Functions for FMI2 for Model Exchange")
+    _, _, after = rest.partition("Functions for FMI2 for Co-Simulation")
+    return set(re.findall(r"FMI2_Export\s+\w+TYPE\s+(\w+);", before + after))
+
+
+def exports(library: object) -> set[str]:
+    if isinstance(library, lief.PE.Binary):
+        return {entry.name for entry in library.get_export().entries}
+    if isinstance(library, lief.MachO.Binary):
+        return {
+            s.name.removeprefix("_") for s in library.symbols if s.has_export_info
+        } - LINKERS_OWN
+    return {s.name for s in library.exported_symbols}  # type: ignore[attr-defined]
+
+
+def test_the_standard_has_34_functions_for_co_simulation_and_75_in_version_3() -> None:
+    assert len(standard_functions()) == 34
+    assert len(standard_functions(3)) == 75
+
+
+@pytest.mark.parametrize("platform", PLATFORMS)
+def test_exports_are_exactly_the_functions_of_the_standard(unpacked: Path, platform: str) -> None:
+    library = lief.parse(str(library_path(unpacked, platform)))
+    assert exports(library) == standard_functions()
+
+
+@pytest.fixture(scope="session")
+def everywhere3(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("everywhere3")
+    with zipfile.ZipFile(cached_fmu(BuildOptions(fmi=3))) as archive:
+        archive.extractall(folder)
+    return folder
+
+
+@pytest.mark.parametrize("platform", PLATFORMS)
+def test_exports_of_fmi_3_are_exactly_the_functions_of_the_standard(
+    everywhere3: Path, platform: str
+) -> None:
+    folder = everywhere3 / "binaries" / PLATFORMS[platform].folder_for(3)
+    library = lief.parse(str(folder / (MODEL + PLATFORMS[platform].suffix)))
+    assert exports(library) == standard_functions(3)
+
+
+@pytest.mark.parametrize("platform", LINUX)
+def test_linux_needs_nothing_newer_than_glibc_2_17(unpacked: Path, platform: str) -> None:
+    library = lief.parse(str(library_path(unpacked, platform)))
+    assert sorted(library.libraries) == ["libc.so.6", "libm.so.6"]
+    needed = {
+        a.name for r in library.symbols_version_requirement for a in r.get_auxiliary_symbols()
+    }
+    assert needed
+    for version in needed:
+        assert re.fullmatch(r"GLIBC_2(\.\d+)+", version)
+        assert tuple(map(int, version[len("GLIBC_") :].split("."))) <= (2, 17), version
+
+
+@pytest.mark.parametrize("platform", LINUX)
+def test_linux_leaves_no_symbol_without_a_library(unpacked: Path, platform: str) -> None:
+    library = lief.parse(str(library_path(unpacked, platform)))
+    for symbol in library.imported_symbols:
+        version = symbol.symbol_version
+        assert version and version.has_auxiliary_version, symbol.name
+
+
+def test_windows_needs_only_what_windows_10_has(unpacked: Path) -> None:
+    library = lief.parse(str(library_path(unpacked, "win64")))
+    # the universal C runtime and the kernel are parts of the system since Windows 10
+    part_of_the_system = re.compile(r"kernel32\.dll|api-ms-win-crt-\w+-l1-1-0\.dll")
+    names = {entry.name.lower() for entry in library.imports}
+    assert names
+    assert [name for name in names if not part_of_the_system.fullmatch(name)] == []
+    system = library.optional_header
+    assert (system.major_subsystem_version, system.minor_subsystem_version) <= (10, 0)
+
+
+@pytest.mark.parametrize(
+    ("platform", "oldest"), [("darwin64", [10, 15, 0]), ("aarch64-darwin", [11, 0, 0])]
+)
+def test_mac_needs_only_the_system_library(
+    unpacked: Path, platform: str, oldest: list[int]
+) -> None:
+    library = lief.parse(str(library_path(unpacked, platform)))
+    own = [c.name for c in library.commands if c.command == lief.MachO.LoadCommand.TYPE.ID_DYLIB]
+    assert own == [f"@rpath/{MODEL}.dylib"]
+    needed = {entry.name for entry in library.libraries} - set(own)
+    assert needed == {"/usr/lib/libSystem.B.dylib"}
+    assert list(library.build_version.minos) == oldest
+    # Apple silicon refuses unsigned code
+    assert library.has_code_signature or platform == "darwin64"
+
+
+@pytest.mark.parametrize("platform", PLATFORMS)
+def test_no_folder_of_the_build_is_left_inside(unpacked: Path, platform: str) -> None:
+    content = library_path(unpacked, platform).read_bytes()
+    home = str(Path.home()).encode()
+    python = str(Path(sys.prefix)).encode()
+    assert [part for part in (b"/tmp/", b"\\tmp\\", home, python) if part in content] == []
+
+
+def test_archive_is_small_and_holds_nothing_else(everywhere: Path) -> None:
+    assert everywhere.stat().st_size <= 1_000_000
+    with zipfile.ZipFile(everywhere) as archive:
+        names = archive.namelist()
+    binaries = {n for n in names if n.startswith("binaries/")}
+    assert binaries == {f"binaries/{p}/{MODEL}{PLATFORMS[p].suffix}" for p in PLATFORMS}
+    folders = {name.split("/")[0] for name in names}
+    assert folders <= {
+        "modelDescription.xml", "binaries", "sources", "documentation", "model.png", "extra",
+    }  # fmt: skip
+
+
+def test_same_bytes_from_another_folder_with_other_caches(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    options = BuildOptions(platforms=("linux64", "win64", "aarch64-darwin"))
+    first = fmu_bytes(options)
+    elsewhere = tmp_path / "a folder with spaces and a longer name"
+    elsewhere.mkdir()
+    monkeypatch.setenv("TMPDIR", str(elsewhere))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    monkeypatch.setenv("ZIG_LOCAL_CACHE_DIR", str(tmp_path / "zig"))
+    assert fmu_bytes(options) == first
+
+
+def moved(outputs: np.ndarray) -> set[str]:
+    return {s.variable.name for s, c in zip(OUTPUTS, outputs.T, strict=True) if np.ptp(c) > 0}
+
+
+@pytest.mark.parametrize("platform", ["aarch64-linux", "win64"])
+@pytest.mark.parametrize("method", Method)
+def test_other_platforms_give_the_outputs_of_linux64(
+    unpacked: Path, scratch: Path, platform: str, method: Method
+) -> None:
+    """Equal but for the last bits of tanh, sin and cos, which each system's library rounds."""
+    settings = {"method": method.value}
+    here = drive("linux64", unpacked, scratch, MINUTE, settings).view(float)
+    there = drive(platform, unpacked, scratch, MINUTE, settings).view(float)
+    np.testing.assert_allclose(there, here, rtol=0, atol=1e-12)
+    assert {"theta_hip", "theta_knee", "phi", "d"} <= moved(here)
+
+
+@pytest.mark.parametrize("platform", ["aarch64-linux", "win64"])
+def test_other_platforms_give_the_outputs_of_linux64_with_couplings_on(
+    unpacked: Path, scratch: Path, platform: str
+) -> None:
+    here = drive("linux64", unpacked, scratch, MINUTE, ALWAYS_COUPLED).view(float)
+    there = drive(platform, unpacked, scratch, MINUTE, ALWAYS_COUPLED).view(float)
+    np.testing.assert_allclose(there, here, rtol=0, atol=1e-12)
+    assert {"theta_hip", "g1", "g2"} <= moved(here)
+
+
+@pytest.mark.parametrize("platform", ["linux64", "aarch64-linux", "win64"])
+def test_fmi_3_gives_the_bits_of_fmi_2(
+    unpacked: Path, everywhere3: Path, scratch: Path, platform: str
+) -> None:
+    fmi2 = drive(platform, unpacked, scratch, MINUTE, ALWAYS_COUPLED)
+    fmi3 = drive3(platform, everywhere3, scratch, MINUTE, ALWAYS_COUPLED)
+    np.testing.assert_array_equal(fmi3, fmi2)
+    assert {"theta_hip", "theta_knee", "g1"} <= moved(fmi3.view(float))
+
+
+def load(seed: int, tick: int, foot: int) -> tuple[int, float]:
+    """As in driver.c, so that the driver's bits can be compared with what fmpy reads."""
+    seed = (seed * 6364136223846793005 + 1442695040888963407) % 2**64
+    period = 41 + 3 * foot
+    return seed, 8 + 6 * ((seed >> 11) / 2**53) if tick % period < period // 2 else 0.0
+
+
+def test_driver_and_fmpy_read_the_same_bits(
+    everywhere: Path, unpacked: Path, scratch: Path
+) -> None:
+    driven = drive(host_platform(), unpacked, scratch, 500, {"method": 1}).view(float)
+    seed, loads = 1, [0.0] * 4
+    with slave(everywhere) as fmu:
+        fmu.start()
+        for tick, expected in enumerate(driven):
+            for foot in range(4):
+                seed, loads[foot] = load(seed, tick, foot)
+            fmu.loads(loads)
+            fmu.step(tick * TS)
+            assert fmu.getReal([s.value_reference for s in OUTPUTS]) == expected.tolist()
+
+
+@pytest.mark.parametrize("compiler", ["cc", "clang"])
+def test_a_bare_compiler_rebuilds_the_library(
+    unpacked: Path, tmp_path: Path, compiler: str
+) -> None:
+    if shutil.which(compiler) is None:
+        pytest.skip(f"{compiler} is missing")
+    sources = sorted(str(path) for path in (unpacked / "sources").glob("*.c"))
+    library = tmp_path / "Apnc.so"
+    command = [compiler, "-shared", "-fPIC", "-O2", *sources, "-o", str(library), "-lm"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert standard_functions() <= exports(lief.parse(str(library)))
+
+
+def test_fmpy_rebuilds_it_from_its_sources(tmp_path: Path) -> None:
+    for tool in ("cmake", "cc"):
+        if shutil.which(tool) is None:
+            pytest.skip(f"{tool} is missing (Debian packages cmake and gcc)")
+    path = tmp_path / "Apnc.fmu"
+    path.write_bytes(fmu_bytes(BuildOptions(platforms=())))
+    command = [sys.executable, "-m", "fmpy", "compile", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    built = fmpy.simulate_fmu(str(path), stop_time=2.0)
+    shipped = fmpy.simulate_fmu(str(host_fmu()), stop_time=2.0)
+    assert built.dtype == shipped.dtype and len(built) == len(shipped) == 121
+    for name in built.dtype.names:
+        np.testing.assert_allclose(built[name], shipped[name], rtol=0, atol=1e-12)
+
+
+def test_the_command_builds_all_platforms_unless_told_otherwise(
+    everywhere: Path, tmp_path: Path
+) -> None:
+    path = tmp_path / "a folder (1)" / "größe" / "Apnc.fmu"
+    command = [sys.executable, "-m", "apnc", "build", "--output", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert path.read_bytes() == everywhere.read_bytes()
+    # and such a path is no obstacle to loading it
+    assert fmpy.simulate_fmu(str(path), stop_time=0.5)["tick"][-1] == 30
