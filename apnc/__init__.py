@@ -1,1 +1,78 @@
-"""Adaptive neural control for legged robots: simulate a walk, sum it up, run a study."""
+"""Adaptive neural control for legged robots: simulate a walk, sum it up, run a study.
+
+>>> import apnc
+>>> record = apnc.simulate(apnc.Experiment(mi=0.15, duration=20))  # doctest: +SKIP
+>>> apnc.write_report(record, "walk/")  # doctest: +SKIP
+
+Nothing is imported before it is used.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any, Final
+
+from apnc_core import __version__
+
+if TYPE_CHECKING:
+    from apnc.loop.experiment import Experiment
+    from apnc.loop.gait import Gait, gait_of_run, read_gait, write_gait
+    from apnc.loop.plant import Plant
+    from apnc.loop.record import End, Record
+    from apnc.loop.simulate import simulate
+    from apnc.report.folder import write_run as write_report
+    from apnc.studies.engine import run_study
+    from apnc.summary import Summary, summarise
+    from exudyn_models.conditions import Conditions
+    from exudyn_models.ground import Ground, Kerb, Plane, Surface, Waves
+    from exudyn_models.robot import RobotDescription, load_robot
+
+_PLACES: Final = {
+    "Experiment": "apnc.loop.experiment",
+    **dict.fromkeys(("Gait", "gait_of_run", "read_gait", "write_gait"), "apnc.loop.gait"),
+    "Plant": "apnc.loop.plant",
+    **dict.fromkeys(("End", "Record"), "apnc.loop.record"),
+    "simulate": "apnc.loop.simulate",
+    "write_report": "apnc.report.folder:write_run",
+    "run_study": "apnc.studies.engine",
+    **dict.fromkeys(("Summary", "summarise"), "apnc.summary"),
+    "Conditions": "exudyn_models.conditions",
+    **dict.fromkeys(("Ground", "Kerb", "Plane", "Surface", "Waves"), "exudyn_models.ground"),
+    **dict.fromkeys(("RobotDescription", "load_robot"), "exudyn_models.robot"),
+}
+
+__all__ = [
+    "Conditions",
+    "End",
+    "Experiment",
+    "Gait",
+    "Ground",
+    "Kerb",
+    "Plane",
+    "Plant",
+    "Record",
+    "RobotDescription",
+    "Summary",
+    "Surface",
+    "Waves",
+    "__version__",
+    "gait_of_run",
+    "load_robot",
+    "read_gait",
+    "run_study",
+    "simulate",
+    "summarise",
+    "write_gait",
+    "write_report",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module 'apnc' has no attribute '{name}'")
+    module, _, attribute = _PLACES[name].partition(":")
+    return getattr(importlib.import_module(module), attribute or name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -17,12 +17,11 @@ class Trace:
     Args:
         parts: arrays whose entries, one after the other, are a row; read anew at every tick.
         split: makes channels of rows of shape (ticks, width).
-        ticks: rows expected; more are welcome.
     """
 
-    def __init__(self, parts: Sequence[Array], split: Split, ticks: int) -> None:
+    def __init__(self, parts: Sequence[Array], split: Split) -> None:
         self._parts, self._split = tuple(parts), split
-        self._rows = np.empty((max(ticks, 1), sum(part.size for part in parts)))
+        self._rows = np.empty((4096, sum(part.size for part in parts)))
         self._used = 0
 
     def __len__(self) -> int:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from exudyn_models.physics.forces import Integers
 from exudyn_models.robot.model import Array
+
+Integers = NDArray[np.int64]
 
 STEP_HEIGHT: Final = 0.01265
 """Step height of the robot in the terrain study of the paper [m]: obstacle height at R = 1."""
@@ -70,6 +72,21 @@ class Ground:
     def height(self) -> float:
         """Height of the obstacles above the plane [m]."""
         return self.roughness * STEP_HEIGHT
+
+    kind = "obstacles"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "kind": "obstacles",
+            "slope": self.slope,
+            "roughness": self.roughness,
+            "seed": self.seed,
+        }
+
+    def text(self) -> str:
+        """Words of the command line."""
+        return f"obstacles:slope={self.slope},roughness={self.roughness},seed={self.seed}"
 
     def rotation(self) -> Array:
         """Rotation from ground to world, shape (3, 3); its last column is the normal."""

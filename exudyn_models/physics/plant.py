@@ -4,63 +4,25 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 
+from exudyn_models.channels import PlantError
 from exudyn_models.conditions import Conditions
 from exudyn_models.ground.terrain import Ground
 from exudyn_models.physics.engine import exu
 from exudyn_models.physics.forces import rotation_rpy
+from exudyn_models.physics.options import PlantOptions
 from exudyn_models.physics.own_contact import add_own_contact, own_foot_forces
 from exudyn_models.physics.robot_forces import RobotForces
 from exudyn_models.physics.start import start_coordinates
 from exudyn_models.physics.tree import BASE, JOINT_SIGN, add_tree
-from exudyn_models.robot.model import GRAVITY, Array, RobotDescription
+from exudyn_models.robot.model import Array, RobotDescription
 from exudyn_models.sensor.load import LoadSensor
 from exudyn_models.trace import Trace
 
-CONTACTS: Final = ("compiled", "exudyn")
 TIPPED_OVER: Final = math.radians(60.0)
-
-
-class PlantError(RuntimeError):
-    """The integration broke down."""
-
-
-@dataclass(frozen=True)
-class PlantOptions:
-    """How a plant is started and integrated.
-
-    Args:
-        step: longest integration step [s]; a tick is cut into equal steps of at most this. The
-            default, 32 steps per tick at 60 Hz, is what the step-size study picked.
-        gravity: downward acceleration [m/s^2].
-        clearance: height of the lowest foot above the ground at the start [m].
-        start_hip, start_knee: joint angles of every leg at the start, relative to the reference
-            pose [rad].
-        contact: ``compiled``, or ``exudyn`` for Exudyn's own, on level ground without obstacles,
-            to hold the compiled one against.
-    """
-
-    step: float = 1.0 / 1920.0
-    gravity: float = GRAVITY
-    clearance: float = 0.0
-    start_hip: float = 0.0
-    start_knee: float = 0.0
-    contact: str = "compiled"
-
-    def __post_init__(self) -> None:
-        """Refuse a step that is not positive, values that are not finite, unknown contacts."""
-        if self.contact not in CONTACTS:
-            raise ValueError(f"contact '{self.contact}' is not one of {', '.join(CONTACTS)}")
-        if not (math.isfinite(self.step) and self.step > 0.0):
-            raise ValueError(f"step is {self.step}; allowed: a finite number above 0")
-        for name in ("gravity", "clearance", "start_hip", "start_knee"):
-            value = getattr(self, name)
-            if not math.isfinite(value):
-                raise ValueError(f"{name} is {value}; allowed: a finite number")
 
 
 class Plant:
@@ -238,18 +200,14 @@ class Plant:
             self._forces.force[:] = force.ravel()
             self._forces.load[:] = force[:, 2]
 
-    def trace(self, ticks: int) -> Trace:
-        """A recorder of every channel in ``recording.PLANT_CHANNELS``, a row per tick.
-
-        Args:
-            ticks: rows expected.
-        """
+    def trace(self) -> Trace:
+        """A recorder of every channel in ``PLANT_CHANNELS``, a row per tick."""
         parts = (self._q, self._v, self._forces.result, self._forces.work, self._reading)
-        return Trace(parts, self._channels, ticks)
+        return Trace(parts, self._channels)
 
     def sample(self) -> dict[str, Array]:
         """One sample of every channel in ``recording.PLANT_CHANNELS``, at the current time."""
-        trace = self.trace(1)
+        trace = self.trace()
         trace.take()
         return {name: values[0] for name, values in trace.channels().items()}
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -210,6 +211,7 @@ class RobotDescription:
     servo: Servo
     contact: Contact
     sensor: Sensor
+    controller: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def mass(self) -> float:

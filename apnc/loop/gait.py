@@ -11,7 +11,6 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from apnc_core.legs import leg_names
 from apnc_core.variables import row
 
 FORMAT: Final = "apnc-gait"
@@ -49,8 +48,16 @@ class Gait:
                 allowed = f"{limits.min:g} ... {limits.max:g} rad"
                 raise GaitError(f"relation of leg {leg} is {angle}; {allowed} is allowed")
 
-    def settings(self) -> dict[str, Any]:
-        """Parameters of the FMU that start it with this gait."""
+    def settings(self, legs: tuple[str, ...]) -> dict[str, Any]:
+        """Parameters of the FMU that start it with this gait on a robot with these legs.
+
+        Raises:
+            GaitError: the gait is one of other legs.
+        """
+        if legs != self.legs:
+            raise GaitError(
+                f"the gait is of legs {', '.join(self.legs)}; the robot has {', '.join(legs)}"
+            )
         return {"stored": True, "phi_stored": self.phi}
 
 
@@ -69,12 +76,13 @@ def gait_of_run(folder: Path) -> Gait:
             last = _last_row(file)
     except OSError as error:
         raise GaitError(f"{path} cannot be read: {error.strerror}") from None
-    columns = [name for name in last if name.startswith("phi_memory")]
-    if not columns or "kappa" not in last:
+    relations = [name for name in last if name.startswith("phi_memory")]
+    if not relations or "kappa" not in last:
         raise GaitError(f"{path} is not the record of a walk")
     if float(last["kappa"]) != 1.0:
         raise GaitError(f"{folder}: no gait was stored in this run (kappa is 0 at its end)")
-    return Gait(leg_names(len(columns) + 1), tuple(float(last[name]) for name in columns))
+    legs = tuple(name.removesuffix(".o1") for name in last if name.endswith(".o1"))
+    return Gait(legs, tuple(float(last[name]) for name in relations))
 
 
 def _last_row(file: Any) -> dict[str, str]:

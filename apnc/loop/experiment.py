@@ -1,0 +1,266 @@
+"""An experiment as plain data: everything that a run depends on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import shlex
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields
+from enum import Enum
+from functools import cached_property, lru_cache
+from pathlib import Path
+from typing import Any, Final
+
+import apnc_core
+from apnc.loop.steps import Over, check_steps, steps_of, steps_text
+from apnc_core.enumerations import Method
+from apnc_core.presets import PRESETS, preset
+from apnc_core.schema import Causality, Value
+from apnc_core.settings import checked
+from apnc_core.variables import row, rows
+from exudyn_models.conditions import Conditions, named_conditions
+from exudyn_models.ground import Plane, Surface
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.robot import RobotDescription, load_robot
+
+Setting = Value | Sequence[float]
+
+OWN_PRESET: Final = "robot"
+"""The preset that takes the table's defaults and what the robot's file sets of them."""
+
+_SET_ELSEWHERE: Final = {"Ts": "rate", "method": "method"}
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What is run. Frozen plain data, checked when it is made.
+
+    Args:
+        robot: name of a shipped robot, its file, or a description.
+        mi: modulatory input [1], one value or steps over time ``((start [s], value), ...)``.
+        duration: simulated time [s], rounded to whole ticks.
+        seed: of the robot's asymmetry and the sensor noise.
+        method: name of the controller, see ``Method``.
+        preset: ``robot`` (the defaults and what the robot's file sets), ``lilibot`` (the defaults)
+            or ``paper`` (as printed).
+        settings: parameters that differ from the preset, by name.
+        ground: what it walks on.
+        conditions: payload, damage and the like: a name of the paper, ``Conditions``, or steps.
+        turn: steering [1], positive turns left; one value or steps.
+        reset: holds the controller in its start state; one value or steps.
+        rate: update rate of the controller [Hz].
+        step: longest integration step of the plant [s].
+        contact: contact law of the feet, see ``PlantOptions``.
+        fmu: file of the controller; the built one if omitted.
+
+    Raises:
+        ValueError: a value outside what is allowed, or names that the robot does not have.
+    """
+
+    robot: str | RobotDescription = "lilibot"
+    mi: Over[float] = 0.08
+    duration: float = 45.0
+    seed: int = 0
+    method: str = "apnc"
+    preset: str = OWN_PRESET
+    settings: Mapping[str, Setting] = field(default_factory=dict)
+    ground: Surface = field(default_factory=Plane)
+    conditions: Over[str | Conditions] = "C1"
+    turn: Over[float] = 0.0
+    reset: Over[bool] = False
+    rate: float = 60.0
+    step: float = PlantOptions().step
+    contact: str = PlantOptions().contact
+    fmu: str | None = None
+
+    def __post_init__(self) -> None:
+        """Check everything before anything runs."""
+        check_steps("mi", self.mi, lambda name, value: _in_range("MI", value, name))
+        check_steps("turn", self.turn, lambda name, value: _in_range("turn", value, name))
+        check_steps("reset", self.reset, _boolean)
+        check_steps("conditions", self.conditions, self._known_conditions)
+        loads = {conditions_of(value).payload for _, value in steps_of(self.conditions)}
+        if len(loads) > 1:
+            raise ValueError(f"payload changes during the run: {sorted(loads)} kg; allowed: one")
+        if self.method not in Method.__members__:
+            raise ValueError(
+                f"method '{self.method}' is not one of {', '.join(Method.__members__)}"
+            )
+        if not isinstance(self.seed, int) or self.seed < 0:
+            raise ValueError(f"seed = {self.seed} is not a whole number, 0 or more")
+        if not isinstance(self.ground, Surface):
+            raise ValueError(f"ground = {self.ground!r} is not a ground")
+        self._check_times()
+        PlantOptions(step=self.step, contact=self.contact)
+        self.parameters()
+
+    def _check_times(self) -> None:
+        limits = row("Ts")
+        assert limits.min is not None and limits.max is not None
+        if not (self.rate > 0.0 and limits.min <= 1.0 / self.rate <= limits.max):
+            allowed = f"{1.0 / limits.max:g} ... {1.0 / limits.min:g} Hz"
+            raise ValueError(f"rate = {self.rate} Hz is not in {allowed}")
+        if not (math.isfinite(self.duration) and self.duration > 0.0):
+            raise ValueError(f"duration = {self.duration} s is not a positive time")
+        if self.ticks < 1:
+            raise ValueError(
+                f"duration = {self.duration} s is not one tick; allowed: {self.Ts:.4g} s and more"
+            )
+
+    def _known_conditions(self, _: str, value: Any) -> None:
+        conditions_of(value).check_legs(tuple(leg.name for leg in self.description.legs))
+
+    @property
+    def Ts(self) -> float:  # noqa: N802  # the paper's symbol
+        """Time of one tick [s]."""
+        return 1.0 / self.rate
+
+    @property
+    def ticks(self) -> int:
+        """Number of ticks of the whole run."""
+        return round(self.duration / self.Ts)
+
+    @cached_property
+    def description(self) -> RobotDescription:
+        """The robot that walks."""
+        if isinstance(self.robot, RobotDescription):
+            return self.robot
+        return _shipped(self.robot) if Path(self.robot).suffix == "" else load_robot(self.robot)
+
+    def parameters(self) -> dict[str, Setting]:
+        """Every parameter of the controller by name, as it is set."""
+        known = [v.name for v in rows(Causality.parameter)]
+        own: Mapping[str, Setting] = {}
+        if self.preset == OWN_PRESET:
+            chosen, own = preset("lilibot"), self.description.controller
+        elif self.preset in PRESETS:
+            chosen = preset(self.preset)
+        else:
+            allowed = ", ".join((OWN_PRESET, *PRESETS))
+            raise ValueError(f"preset '{self.preset}' is not one of {allowed}")
+        values: dict[str, Setting] = {name: getattr(chosen, name) for name in known}
+        values |= {
+            "Ts": self.Ts,
+            "robot_weight": self.description.weight,
+            "method": Method[self.method],
+        }
+        for name, value in {**own, **self.settings}.items():
+            if name in _SET_ELSEWHERE:
+                raise ValueError(f"{name} = {value} is not set here, but by {_SET_ELSEWHERE[name]}")
+            values[name] = checked(name, value)
+        relations, legs = values["phi_stored"], len(self.description.legs)
+        assert isinstance(relations, Sequence)
+        if len(relations) not in (0, legs - 1):
+            raise ValueError(
+                f"phi_stored has {len(relations)} values; {legs} legs take {legs - 1} or none"
+            )
+        return values
+
+    def plain_parameters(self) -> dict[str, Any]:
+        """Every parameter as plain data for JSON, enumerations by name."""
+        plain: dict[str, Any] = _plain(self.parameters())
+        return plain
+
+    def changed(self) -> dict[str, Any]:
+        """Fields that are not the default, by name."""
+        default = _default()
+        return {
+            f.name: getattr(self, f.name)
+            for f in fields(self)
+            if getattr(self, f.name) != getattr(default, f.name)
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Every field as plain data for JSON, the robot by its name unless it is an object."""
+        values = {f.name: getattr(self, f.name) for f in fields(self)}
+        values["ground"] = self.ground.to_dict()
+        plain: dict[str, Any] = _plain(values)
+        return plain
+
+    def key(self) -> str:
+        """Hash of all that a run depends on: robot, parameters, package version; 16 hex digits."""
+        content = {
+            **self.to_dict(),
+            "robot": asdict(self.description),
+            "parameters": self.parameters(),
+            "conditions": [(t, asdict(conditions_of(c))) for t, c in steps_of(self.conditions)],
+            "fmu": self.fmu and hashlib.sha256(Path(self.fmu).read_bytes()).hexdigest(),
+            "version": apnc_core.__version__,
+        }
+        for name in ("preset", "settings", "method"):
+            del content[name]  # the parameters say it all
+        text = json.dumps(_plain(content), sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+    def command(self) -> str:
+        """The command line that runs it again.
+
+        Pitfall: a robot or conditions given as an object have no words on the command line; their
+        names stand there.
+        """
+        words = ["apnc", "walk"]
+        for name, value in self.changed().items():
+            if name == "settings":
+                words += [
+                    f"--set={key}={_setting_text(key, entry)}" for key, entry in value.items()
+                ]
+            elif name == "ground":
+                words += ["--ground", value.text()]
+            elif name == "robot":
+                words += ["--robot", value if isinstance(value, str) else value.name]
+            else:
+                option = {"conditions": "condition"}.get(name, name)
+                words += [f"--{option}", steps_text(value)]
+        return shlex.join(words)
+
+
+def conditions_of(value: str | Conditions) -> Conditions:
+    """The conditions that a value of ``Experiment.conditions`` means."""
+    if isinstance(value, Conditions):
+        return value
+    return named_conditions(value)
+
+
+@lru_cache
+def _shipped(name: str) -> RobotDescription:
+    return load_robot(name)
+
+
+def _in_range(variable: str, value: Any, name: str) -> None:
+    limits = row(variable)
+    assert limits.min is not None and limits.max is not None
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not number or not limits.min <= value <= limits.max:
+        raise ValueError(f"{name} = {value} is not in {limits.min:g} ... {limits.max:g}")
+
+
+def _boolean(name: str, value: Any) -> None:
+    if not isinstance(value, bool):
+        raise ValueError(f"{name} = {value} is not true or false")
+
+
+def _setting_text(name: str, value: Any) -> str:
+    enumeration = row(name).enumeration
+    if enumeration:
+        return enumeration.items(value).name
+    return json.dumps(_plain(value))
+
+
+def _plain(value: Any) -> Any:
+    """Data that JSON knows: enumerations by name, objects as tables."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(entry) for entry in value]
+    if isinstance(value, Enum):
+        return value.name
+    if hasattr(value, "__dataclass_fields__"):
+        return _plain(asdict(value))
+    return value
+
+
+@lru_cache
+def _default() -> Experiment:
+    return Experiment()

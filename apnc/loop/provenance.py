@@ -1,0 +1,27 @@
+"""What was run, in full: for summaries and reports, so that a result can be made again."""
+
+from __future__ import annotations
+
+import platform
+from importlib.metadata import version
+from typing import Any, Final
+
+import apnc_core
+from apnc.loop.experiment import Experiment
+
+_LIBRARIES: Final = ("exudyn", "fmpy", "numba", "numpy")
+
+
+def what_was_run(experiment: Experiment) -> dict[str, Any]:
+    """The command that repeats it, the whole experiment, all parameters, and versions."""
+    return {
+        "command": experiment.command(),
+        "key": experiment.key(),
+        "experiment": experiment.to_dict(),
+        "parameters": experiment.plain_parameters(),
+        "versions": {
+            "apnc": apnc_core.__version__,
+            "python": platform.python_version(),
+            **{name: version(name) for name in _LIBRARIES},
+        },
+    }

@@ -1,0 +1,131 @@
+"""What a run leaves behind: every channel, sampled once per control tick."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from apnc.loop.experiment import Experiment
+from apnc_core.schema import Shape, Variable
+from apnc_core.variables import TABLE
+from exudyn_models.channels import PLANT_CHANNELS
+from exudyn_models.robot import RobotDescription
+
+Array = NDArray[np.float64]
+
+
+class End(StrEnum):
+    """How a run ended."""
+
+    complete = "complete"
+    fell = "fell"
+    diverged = "diverged"
+    interrupted = "interrupted"
+
+
+@dataclass(frozen=True)
+class Record:
+    """A run, whether it came to its planned end or not.
+
+    Args:
+        legs: leg names in FMU order, e.g. ``("RF", "RH", "LF", "LH")``.
+        time: sample times [s], shape (T,).
+        plant: channel name -> array of shape (T, \\*channel.shape(n_legs)), see
+            ``exudyn_models.channels``.
+        controller: row name of the table of variables -> array of shape (T,), (T, n_legs) for
+            rows per leg or (T, n_legs - 1) for phase relations (phi12, phi13, ...): every input,
+            output and local variable.
+        mass: total mass of the robot with its payload [kg].
+        experiment: what was run.
+        robot: what walked.
+        end: how the run ended.
+        message: what broke down, if anything did.
+        fmu_wall_s: wall time spent inside the controller [s].
+        wall_s: wall time of the whole loop [s].
+    """
+
+    legs: tuple[str, ...]
+    time: Array
+    plant: Mapping[str, Array]
+    controller: Mapping[str, Array]
+    mass: float
+    experiment: Experiment
+    robot: RobotDescription
+    end: End = End.complete
+    message: str = ""
+    fmu_wall_s: float = 0.0
+    wall_s: float = 0.0
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def n_legs(self) -> int:
+        """Number of legs."""
+        return len(self.legs)
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run came to its planned end."""
+        return self.end is End.complete
+
+    @property
+    def ended_at(self) -> float:
+        """Simulated time [s]; a sample stands for the whole tick that follows it."""
+        return round(len(self) * self.experiment.Ts, 9)
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of ``record.csv``: its name, unit, frame and meaning."""
+
+    name: str
+    unit: str
+    frame: str
+    description: str
+
+
+_TIME: Final = Column("time", "s", "", "start of the tick")
+
+
+def column_names(record: Record) -> list[Column]:
+    """The flat columns of a record, in order: ``time``, ``RF.o1``, ``phi12``, ``position.x``."""
+    return [column for column, _ in _columns(record)]
+
+
+def columns(record: Record) -> dict[str, Array]:
+    """All channels as flat columns of shape (T,), by name.
+
+    Vectors are named by component, channels per leg by leg, relations by the pair of legs.
+    """
+    return {column.name: values for column, values in _columns(record)}
+
+
+def _columns(record: Record) -> Iterator[tuple[Column, Array]]:
+    yield _TIME, record.time
+    described = {variable.name: variable for variable in TABLE}
+    for name, values in record.controller.items():
+        variable = described[name]
+        entries = values.reshape(len(record), values.shape[1] if values.ndim > 1 else 1)
+        for entry, label in enumerate(_labels(variable, record.legs)):
+            column = Column(label, variable.unit or "", "", variable.description)
+            yield column, entries[:, entry]
+    for channel in PLANT_CHANNELS:
+        names = channel.columns(record.legs)
+        entries = record.plant[channel.name].reshape(len(record), len(names))
+        for entry, label in enumerate(names):
+            column = Column(label, channel.unit, channel.frame, channel.description)
+            yield column, entries[:, entry]
+
+
+def _labels(variable: Variable, legs: tuple[str, ...]) -> list[str]:
+    if variable.shape is Shape.scalar:
+        return [variable.name]
+    if variable.shape is Shape.leg:
+        return [f"{leg}.{variable.name}" for leg in legs]
+    return [f"{variable.name}1{k}" for k in range(2, len(legs) + 1)]

@@ -1,0 +1,117 @@
+"""The co-simulation master: the one closed loop of robot and controller."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment, conditions_of
+from apnc.loop.fmu_controller import FmuController
+from apnc.loop.plant import Plant, PlantError
+from apnc.loop.record import End, Record
+from apnc.loop.steps import Course
+from build_fmu.build import host_fmu
+
+Progress = Callable[[float, FmuController], None]
+Stop = Callable[[], bool]
+
+
+def simulate(
+    experiment: Experiment,
+    *,
+    plant: Plant | None = None,
+    progress: Progress = lambda t, controller: None,
+    stop: Stop = lambda: False,
+) -> Record:
+    """Walk a robot under the controller FMU.
+
+    At tick n the controller gets the loads that the sensors show at t_n = n Ts, and its joint
+    commands act on the servos from t_n to t_n+1: what a control computer on the robot does.
+
+    Args:
+        experiment: what is run.
+        plant: the robot at its start; made in Exudyn from the experiment if omitted.
+        progress: called after every tick with the time [s] and the controller.
+        stop: asked before every tick; True ends the run.
+
+    Returns:
+        The record. A fall, a motion that diverges or ``stop`` end it early; what was recorded
+        stays.
+
+    Raises:
+        ValueError: the FMU cannot be used, or is for another number of legs.
+    """
+    robot = experiment.description
+    path = Path(experiment.fmu) if experiment.fmu else host_fmu(len(robot.legs))
+    parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
+    with FmuController(path, parameters) as controller:
+        if controller.n_legs != len(robot.legs):
+            raise ValueError(
+                f"{path} is for {controller.n_legs} legs; robot '{robot.name}' has "
+                f"{len(robot.legs)}"
+            )
+        return _run(experiment, plant or exudyn_plant(experiment), controller, progress, stop)
+
+
+def exudyn_plant(experiment: Experiment) -> Plant:
+    """The robot of an experiment in Exudyn, at its start."""
+    from exudyn_models.physics.options import PlantOptions  # noqa: PLC0415
+    from exudyn_models.physics.plant import Plant as ExudynPlant  # noqa: PLC0415  # takes seconds
+
+    return ExudynPlant(
+        experiment.description,
+        experiment.seed,
+        options=PlantOptions(step=experiment.step, contact=experiment.contact),
+        ground=experiment.ground,
+        conditions=conditions_of(Course(experiment.conditions).at(0.0)),
+    )
+
+
+def _run(
+    experiment: Experiment,
+    plant: Plant,
+    controller: FmuController,
+    progress: Progress,
+    stop: Stop,
+) -> Record:
+    begin, Ts = time.perf_counter(), experiment.Ts
+    mi, turn = Course(experiment.mi), Course(experiment.turn)
+    reset, conditions = Course(experiment.reset), Course(experiment.conditions)
+    body, brain = plant.trace(), controller.trace()
+    end, message, present = End.complete, "", conditions.at(0.0)
+    for n in range(experiment.ticks):
+        if stop():
+            end = End.interrupted
+            break
+        t = n * Ts
+        if (wanted := conditions.at(t)) is not present:
+            plant.set_conditions(conditions_of(wanted))
+            present = wanted
+        controller.step(t, Ts, plant.grf(), mi.at(t), turn.at(t), reset.at(t))
+        body.take()
+        brain.take()
+        try:
+            plant.advance(controller.theta_hip, controller.theta_knee, Ts)
+        except PlantError as problem:
+            end, message = End.diverged, str(problem)
+            break
+        if plant.fell:
+            end = End.fell
+            break
+        progress(t + Ts, controller)
+    return Record(
+        legs=plant.legs,
+        time=np.arange(len(body), dtype=np.float64) * Ts,
+        plant=body.channels(),
+        controller=brain.channels(),
+        mass=plant.mass,
+        experiment=experiment,
+        robot=experiment.description,
+        end=end,
+        message=message,
+        fmu_wall_s=controller.wall_s,
+        wall_s=time.perf_counter() - begin,
+    )

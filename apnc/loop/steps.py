@@ -1,0 +1,74 @@
+"""Quantities over time: one value, or steps ``((start [s], value), ...)``."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from bisect import bisect_right
+from collections.abc import Callable
+from typing import Any, TypeAlias, TypeVar
+
+Value = TypeVar("Value")
+Steps: TypeAlias = tuple[tuple[float, Value], ...]
+Over: TypeAlias = Value | Steps[Value]
+"""A value that holds all the time, or steps of it."""
+
+
+def steps_of(value: Over[Any]) -> Steps[Any]:
+    """The steps of a quantity; one from the start on if it is a single value."""
+    if isinstance(value, tuple | list):
+        return tuple((float(start), entry) for start, entry in value)
+    return ((0.0, value),)
+
+
+def check_steps(name: str, value: Over[Any], check: Callable[[str, Any], None]) -> None:
+    """Check the times of a quantity, and each of its values with ``check(name, value)``.
+
+    Raises:
+        ValueError: no step, a first one that is not at 0, or times that do not grow.
+    """
+    try:
+        steps = steps_of(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} = {value} is not ((start, value), ...)") from None
+    times = [start for start, _ in steps]
+    grows = all(a < b for a, b in itertools.pairwise(times))
+    if not times or times[0] != 0.0 or not grows or not math.isfinite(times[-1]):
+        raise ValueError(f"steps of {name} start at {times} s; allowed: 0, then growing times")
+    for _, entry in steps:
+        check(name, entry)
+
+
+class Course:
+    """Steps, asked for tick by tick."""
+
+    def __init__(self, value: Over[Any]) -> None:
+        steps = steps_of(value)
+        self._starts = [start for start, _ in steps]
+        self._values = [entry for _, entry in steps]
+
+    def at(self, t: float) -> Any:
+        """Value at time ``t`` [s], at least 0."""
+        return self._values[bisect_right(self._starts, t) - 1]
+
+
+def parse_steps(text: str, convert: Callable[[str], Value]) -> Over[Value]:
+    """``"0.1"`` -> 0.1; ``"0:0.15,25:0.4"`` -> ((0, 0.15), (25, 0.4)).
+
+    Raises:
+        ValueError: a time or value that ``convert`` does not take.
+    """
+    if ":" not in text:
+        return convert(text)
+    pairs = [part.partition(":") for part in text.split(",")]
+    try:
+        return tuple((float(start), convert(entry.strip())) for start, _, entry in pairs)
+    except ValueError as error:
+        raise ValueError(f"'{text}' is not time:value,time:value,... ({error})") from None
+
+
+def steps_text(value: Over[Any]) -> str:
+    """The text that :func:`parse_steps` takes."""
+    if not isinstance(value, tuple | list):
+        return str(value)
+    return ",".join(f"{start:g}:{entry}" for start, entry in steps_of(value))
