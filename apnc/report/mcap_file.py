@@ -1,0 +1,124 @@
+"""A walk as an MCAP log of ROS 2 messages, for Foxglove, PlotJuggler and the like."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+from scipy.spatial.transform import Rotation
+
+from apnc.loop.record import Record
+
+_SEPARATOR: Final = "=" * 80
+_TIME: Final = "int32 sec\nuint32 nanosec\n"
+_HEADER: Final = "builtin_interfaces/Time stamp\nstring frame_id\n"
+_VECTOR: Final = "float64 x\nfloat64 y\nfloat64 z\n"
+_STAMPED: Final = {"std_msgs/Header": _HEADER, "builtin_interfaces/Time": _TIME}
+
+_DEFINITIONS: Final = {
+    "sensor_msgs/msg/JointState": (
+        "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n"
+        "float64[] effort\n",
+        _STAMPED,
+    ),
+    "geometry_msgs/msg/PoseStamped": (
+        "std_msgs/Header header\ngeometry_msgs/Pose pose\n",
+        {
+            **_STAMPED,
+            "geometry_msgs/Pose": "geometry_msgs/Point position\n"
+            "geometry_msgs/Quaternion orientation\n",
+            "geometry_msgs/Point": _VECTOR,
+            "geometry_msgs/Quaternion": f"{_VECTOR}float64 w\n",
+        },
+    ),
+    "geometry_msgs/msg/WrenchStamped": (
+        "std_msgs/Header header\ngeometry_msgs/Wrench wrench\n",
+        {
+            **_STAMPED,
+            "geometry_msgs/Wrench": "geometry_msgs/Vector3 force\ngeometry_msgs/Vector3 torque\n",
+            "geometry_msgs/Vector3": _VECTOR,
+        },
+    ),
+    "std_msgs/msg/Float64": ("float64 data\n", {}),
+}
+
+
+def write_mcap(record: Record, path: Path) -> None:
+    """Write joint states and commands, the trunk's pose, foot forces and the controller's state.
+
+    Args:
+        record: the run.
+        path: file to write.
+
+    Raises:
+        ValueError: the extra ``mcap`` is missing.
+        OSError: the file cannot be written.
+
+    Topics: ``/joint_states`` and ``/joint_commands`` (JointState), ``/trunk`` (PoseStamped),
+    ``/foot_force/RF`` ... (WrenchStamped, world frame), ``/apnc/phi12`` ..., ``/apnc/kappa``,
+    ``/apnc/d`` (Float64). Time starts at 0.
+    """
+    try:
+        from mcap_ros2.writer import Writer  # noqa: PLC0415  # an extra
+    except ImportError:
+        raise ValueError("--mcap needs the extra 'mcap': pip install 'apnc[mcap]'") from None
+    with path.open("wb") as file:
+        writer = Writer(file)
+        schemas = {
+            name: writer.register_msgdef(name, _definition(*parts))
+            for name, parts in _DEFINITIONS.items()
+        }
+        for tick, t in enumerate(record.time):
+            for topic, kind, message in _messages(record, tick):
+                stamp = round(float(t) * 1e9)
+                if "header" in message:
+                    message["header"]["stamp"] = dict(
+                        zip(("sec", "nanosec"), divmod(stamp, 10**9), strict=True)
+                    )
+                writer.write_message(topic, schemas[kind], message, log_time=stamp)
+        writer.finish()
+
+
+def _definition(own: str, others: dict[str, str]) -> str:
+    return own + "".join(f"{_SEPARATOR}\nMSG: {name}\n{text}" for name, text in others.items())
+
+
+def _messages(record: Record, tick: int) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    plant, controller, legs = record.plant, record.controller, record.legs
+    joints = [f"{leg}_{joint}" for leg in legs for joint in ("abduction", "hip", "knee")]
+    position, velocity, effort = (
+        plant[name][tick].ravel().tolist()
+        for name in ("joint_angle", "joint_speed", "joint_torque")
+    )
+    state = {"name": joints, "position": position, "velocity": velocity, "effort": effort}
+    yield "/joint_states", "sensor_msgs/msg/JointState", {"header": _header(""), **state}
+    commands = {
+        "name": [f"{leg}_{joint}" for joint in ("hip", "knee") for leg in legs],
+        "position": [*controller["theta_hip"][tick], *controller["theta_knee"][tick]],
+        "velocity": [],
+        "effort": [],
+    }
+    yield "/joint_commands", "sensor_msgs/msg/JointState", {"header": _header(""), **commands}
+    turn = Rotation.from_euler("xyz", plant["rpy"][tick]).as_quat()
+    pose = {
+        "position": dict(zip("xyz", plant["position"][tick], strict=True)),
+        "orientation": dict(zip("xyzw", turn, strict=True)),
+    }
+    yield "/trunk", "geometry_msgs/msg/PoseStamped", {"header": _header("world"), "pose": pose}
+    for leg, force in zip(legs, plant["foot_force"][tick], strict=True):
+        wrench = {
+            "force": dict(zip("xyz", force, strict=True)),
+            "torque": dict.fromkeys("xyz", 0.0),
+        }
+        message = {"header": _header("world"), "wrench": wrench}
+        yield f"/foot_force/{leg}", "geometry_msgs/msg/WrenchStamped", message
+    for k, phi in enumerate(controller["phi"][tick], start=2):
+        yield f"/apnc/phi1{k}", "std_msgs/msg/Float64", {"data": float(phi)}
+    for name in ("d", "kappa"):
+        value = {"data": float(controller[name][tick])}
+        yield f"/apnc/{name}", "std_msgs/msg/Float64", value
+
+
+def _header(frame: str) -> dict[str, Any]:
+    return {"stamp": {}, "frame_id": frame}

@@ -1,0 +1,42 @@
+"""The MCAP log read back says what the record says."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import apnc
+from apnc.report.mcap_file import write_mcap
+
+mcap_reader = pytest.importorskip("mcap.reader")
+decoder = pytest.importorskip("mcap_ros2.decoder")
+
+
+def test_a_walk_comes_back_from_its_log(tmp_path: Path) -> None:
+    record = apnc.simulate(apnc.Experiment(duration=1.0, mi=0.15))
+    write_mcap(record, tmp_path / "walk.mcap")
+    heard: dict[str, list[tuple[int, object]]] = {}
+    with (tmp_path / "walk.mcap").open("rb") as file:
+        reader = mcap_reader.make_reader(file, decoder_factories=[decoder.DecoderFactory()])
+        for _, channel, message, decoded in reader.iter_decoded_messages():
+            heard.setdefault(channel.topic, []).append((message.log_time, decoded))
+    assert {len(messages) for messages in heard.values()} == {60}
+    times = [stamp for stamp, _ in heard["/trunk"]]
+    np.testing.assert_allclose(np.array(times) / 1e9, record.time, atol=1e-9)
+    places = [[m.pose.position.x, m.pose.position.z] for _, m in heard["/trunk"]]
+    np.testing.assert_array_equal(places, record.plant["position"][:, [0, 2]])
+    roll = [2.0 * np.arcsin(m.pose.orientation.x) for _, m in heard["/trunk"]]
+    np.testing.assert_allclose(roll, record.plant["rpy"][:, 0], atol=1e-3)
+    last = heard["/joint_states"][-1][1]
+    at = list(last.name).index("LF_knee")
+    assert last.position[at] == record.plant["joint_angle"][-1, 2, 2]
+    assert last.effort[at] == record.plant["joint_torque"][-1, 2, 2]
+    last = heard["/joint_commands"][-1][1]
+    assert last.position[list(last.name).index("LF_knee")] == record.controller["theta_knee"][-1, 2]
+    forces = [m.wrench.force.z for _, m in heard["/foot_force/LH"]]
+    np.testing.assert_array_equal(forces, record.plant["foot_force"][:, 3, 2])
+    stamp = heard["/foot_force/LH"][-1][1].header.stamp
+    assert stamp.sec + stamp.nanosec / 1e9 == pytest.approx(59 / 60)
+    assert [m.data for _, m in heard["/apnc/phi13"]] == record.controller["phi"][:, 1].tolist()
