@@ -17,12 +17,13 @@ import fmpy
 import numpy as np
 from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
+from numpy.typing import NDArray
 
-from apnc.loop.recording import Array
 from apnc_core.schema import Causality, Shape, Type, Value, Variable
 from apnc_core.variables import TABLE, Scalar, row, scalars
 from exudyn_models.trace import Trace
 
+Array = NDArray[np.float64]
 Setting = Value | Sequence[float]
 
 
@@ -223,17 +224,13 @@ class FmuController:
     def _blocks(self) -> tuple[Block, ...]:
         return (self._real_in, self._reset_in, self._reals, self._integers, self._booleans)
 
-    def trace(self, ticks: int) -> Trace:
-        """A recorder of all inputs, outputs and local variables, a row per tick.
-
-        Args:
-            ticks: rows expected.
-        """
-        return Trace([block.view for block in self._blocks()], self._channels, ticks)
+    def trace(self) -> Trace:
+        """A recorder of all inputs, outputs and local variables, a row per tick."""
+        return Trace([block.view for block in self._blocks()], self._channels)
 
     def sample(self) -> dict[str, Array]:
         """All inputs, outputs and local variables now, by row name; shape () or (entries,)."""
-        trace = self.trace(1)
+        trace = self.trace()
         trace.take()
         return {name: values[0] for name, values in trace.channels().items()}
 

@@ -4,63 +4,22 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
+from exudyn_models.channels import PlantError
 from exudyn_models.conditions import Conditions
-from exudyn_models.ground.terrain import Ground
+from exudyn_models.ground import Plane, Surface
 from exudyn_models.physics.engine import exu
-from exudyn_models.physics.forces import rotation_rpy
+from exudyn_models.physics.options import PlantOptions
 from exudyn_models.physics.own_contact import add_own_contact, own_foot_forces
 from exudyn_models.physics.robot_forces import RobotForces
 from exudyn_models.physics.start import start_coordinates
 from exudyn_models.physics.tree import BASE, JOINT_SIGN, add_tree
-from exudyn_models.robot.model import GRAVITY, Array, RobotDescription
+from exudyn_models.robot.model import Array, RobotDescription
 from exudyn_models.sensor.load import LoadSensor
 from exudyn_models.trace import Trace
-
-CONTACTS: Final = ("compiled", "exudyn")
-TIPPED_OVER: Final = math.radians(60.0)
-
-
-class PlantError(RuntimeError):
-    """The integration broke down."""
-
-
-@dataclass(frozen=True)
-class PlantOptions:
-    """How a plant is started and integrated.
-
-    Args:
-        step: longest integration step [s]; a tick is cut into equal steps of at most this. The
-            default, 32 steps per tick at 60 Hz, is what the step-size study picked.
-        gravity: downward acceleration [m/s^2].
-        clearance: height of the lowest foot above the ground at the start [m].
-        start_hip, start_knee: joint angles of every leg at the start, relative to the reference
-            pose [rad].
-        contact: ``compiled``, or ``exudyn`` for Exudyn's own, on level ground without obstacles,
-            to hold the compiled one against.
-    """
-
-    step: float = 1.0 / 1920.0
-    gravity: float = GRAVITY
-    clearance: float = 0.0
-    start_hip: float = 0.0
-    start_knee: float = 0.0
-    contact: str = "compiled"
-
-    def __post_init__(self) -> None:
-        """Refuse a step that is not positive, values that are not finite, unknown contacts."""
-        if self.contact not in CONTACTS:
-            raise ValueError(f"contact '{self.contact}' is not one of {', '.join(CONTACTS)}")
-        if not (math.isfinite(self.step) and self.step > 0.0):
-            raise ValueError(f"step is {self.step}; allowed: a finite number above 0")
-        for name in ("gravity", "clearance", "start_hip", "start_knee"):
-            value = getattr(self, name)
-            if not math.isfinite(value):
-                raise ValueError(f"{name} is {value}; allowed: a finite number")
 
 
 class Plant:
@@ -82,7 +41,7 @@ class Plant:
         seed: int = 0,
         *,
         options: PlantOptions | None = None,
-        ground: Ground | None = None,
+        ground: Surface | None = None,
         conditions: Conditions | None = None,
     ) -> None:
         """Put the robot on the ground.
@@ -99,7 +58,7 @@ class Plant:
             PlantError: Exudyn refused the model.
         """
         self._robot, self._options = robot, options or PlantOptions()
-        self._ground = ground or Ground()
+        self._ground = ground or Plane()
         self._conditions = conditions or Conditions()
         self.legs = tuple(leg.name for leg in robot.legs)
         self.n_legs = len(self.legs)
@@ -110,7 +69,6 @@ class Plant:
             robot.sensor, self.legs, robot.weight, np.random.default_rng(noise_seed)
         )
         self._reading = np.zeros(self.n_legs)
-        self._corners = robot.trunk.corners()
         self._build(_side_offset(robot, np.random.default_rng(body_seed)))
         self.set_conditions(self._conditions)
 
@@ -121,7 +79,7 @@ class Plant:
         coordinates = self._start.copy()
         coordinates[2] += self._conditions.held_at or 0.0
         own = options.contact == "exudyn"
-        if own and (self._ground.slope or self._ground.roughness):
+        if own and (self._ground.slope or not self._ground.flat):
             raise ValueError("contact 'exudyn' knows level ground without obstacles only")
         self._forces = RobotForces(robot, self._ground, coordinates[BASE:], touches=not own)
         self._commanded = coordinates[BASE:].reshape(-1, 3) * JOINT_SIGN
@@ -238,20 +196,18 @@ class Plant:
             self._forces.force[:] = force.ravel()
             self._forces.load[:] = force[:, 2]
 
-    def trace(self, ticks: int) -> Trace:
-        """A recorder of every channel in ``recording.PLANT_CHANNELS``, a row per tick.
-
-        Args:
-            ticks: rows expected.
-        """
-        parts = (self._q, self._v, self._forces.result, self._forces.work, self._reading)
-        return Trace(parts, self._channels, ticks)
+    def trace(self) -> Trace:
+        """A recorder of every channel in ``PLANT_CHANNELS``, a row per tick."""
+        return Trace(self._parts, self._channels)
 
     def sample(self) -> dict[str, Array]:
-        """One sample of every channel in ``recording.PLANT_CHANNELS``, at the current time."""
-        trace = self.trace(1)
-        trace.take()
-        return {name: values[0] for name, values in trace.channels().items()}
+        """One sample of every channel in ``PLANT_CHANNELS``, at the current time."""
+        channels = self._channels(np.concatenate(self._parts)[np.newaxis])
+        return {name: values[0] for name, values in channels.items()}
+
+    @property
+    def _parts(self) -> tuple[Array, ...]:
+        return (self._q, self._v, self._forces.result, self._forces.work, self._reading)
 
     def _channels(self, rows: Array) -> dict[str, Array]:
         n, size = self.n_legs, BASE + 3 * self.n_legs
@@ -276,12 +232,11 @@ class Plant:
 
     @property
     def fell(self) -> bool:
-        """Whether roll or pitch exceeds 60 degrees or a corner of the trunk touches the plane."""
-        yaw, pitch, roll = self._q[3:6]
-        normal = self._ground.rotation()[:, 2]
-        rotation = np.array(rotation_rpy(roll, pitch, yaw))
-        lowest = ((self._q[:3] + self._corners @ rotation.T) @ normal).min()
-        return bool(max(abs(roll), abs(pitch)) > TIPPED_OVER or lowest <= 0.0)
+        """Whether the trunk is tipped by more than 60 degrees or touches the ground with a corner.
+
+        The tilt is measured against the normal of the ground.
+        """
+        return self._forces.fallen(self._q)
 
 
 def _side_offset(robot: RobotDescription, random: np.random.Generator) -> float:

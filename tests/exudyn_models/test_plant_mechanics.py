@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_models.ground.terrain import Ground
+from exudyn_models.ground import Ground
 from exudyn_models.physics.plant import Plant, PlantOptions
 from exudyn_models.physics.tree import BASE
 from exudyn_models.robot.file import load_robot

@@ -9,7 +9,7 @@ from apnc.loop.recording import Record
 from apnc.loop.walk import WalkOptions, walk
 from apnc.summary import summarise
 from build_fmu.build import host_fmu
-from exudyn_models.ground.terrain import Ground
+from exudyn_models.ground import Ground
 from exudyn_models.physics.plant import Plant, PlantOptions
 from exudyn_models.robot.file import load_robot
 

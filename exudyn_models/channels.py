@@ -1,0 +1,89 @@
+"""What a plant shows at every tick: names, units and signs, the same for every engine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+XYZ: Final = ("x", "y", "z")
+JOINTS: Final = ("abduction", "hip", "knee")
+WORLD: Final = "world: x forward at the start, y to the left, z up"
+
+
+class PlantError(RuntimeError):
+    """The motion broke down."""
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One quantity.
+
+    Args:
+        name: its name.
+        unit: its unit.
+        description: what it is.
+        frame: frame of its components; empty if it has none.
+        per_leg: one entry per leg, in the order of the robot's legs.
+        components: names of the entries of a vector; empty for a scalar.
+        sign: what a positive value means; empty if the frame says it.
+    """
+
+    name: str
+    unit: str
+    description: str
+    frame: str = ""
+    per_leg: bool = False
+    components: tuple[str, ...] = ()
+    sign: str = ""
+
+    def shape(self, n_legs: int) -> tuple[int, ...]:
+        """Shape of one sample for a robot with ``n_legs`` legs."""
+        legs = (n_legs,) if self.per_leg else ()
+        return legs + ((len(self.components),) if self.components else ())
+
+    def columns(self, legs: tuple[str, ...]) -> list[str]:
+        """Flat column names, in the memory order of one sample."""
+        stems = [f"{leg}.{self.name}" for leg in legs] if self.per_leg else [self.name]
+        if not self.components:
+            return stems
+        return [f"{stem}.{component}" for stem in stems for component in self.components]
+
+
+_RPY: Final = "positive roll: right side down; pitch: nose down; yaw: to the left"
+_JOINT: Final = "0 in the reference pose; positive abduction: to the left; hip: forward; knee: up"
+
+PLANT_CHANNELS: Final[tuple[Channel, ...]] = (
+    Channel("position", "m", "trunk reference point", WORLD, False, XYZ),
+    Channel(
+        "rpy",
+        "rad",
+        "roll, pitch and yaw of the trunk",
+        "world to trunk: yaw about z, then pitch about y, then roll about x",
+        False,
+        ("roll", "pitch", "yaw"),
+        _RPY,
+    ),
+    Channel("velocity", "m/s", "velocity of the trunk reference point", WORLD, False, XYZ),
+    Channel("joint_angle", "rad", "angle of the joint", "joint", True, JOINTS, _JOINT),
+    Channel("joint_speed", "rad/s", "speed of the joint", "joint", True, JOINTS, _JOINT),
+    Channel("joint_torque", "N.m", "torque of the servo", "joint", True, JOINTS, _JOINT),
+    Channel(
+        "joint_work",
+        "J",
+        "|torque times speed| of the servo over time since the start",
+        "joint",
+        True,
+        JOINTS,
+        "never decreases",
+    ),
+    Channel("foot_position", "m", "centre of the foot ball", WORLD, True, XYZ),
+    Channel("foot_force", "N", "force of the ground on the foot", WORLD, True, XYZ),
+    Channel(
+        "grf",
+        "N",
+        "load the foot sensor delivers to the controller",
+        per_leg=True,
+        sign="positive: the foot presses; never negative",
+    ),
+)
+"""Every channel of a plant, in the order of a record."""
