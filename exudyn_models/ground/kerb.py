@@ -94,9 +94,13 @@ class Kerb(Surface):
     def _line(self, x: Any, y: Any) -> Array:
         """A line over the kerb gets its edges as points, both ends of each face."""
         line = super()._line(x, y)
-        for place, order in ((self.at, (0.0, self.height)), (self.end, (self.height, 0.0))):
-            behind = np.searchsorted(line[:, 0], place)
-            if 0 < behind < len(line):
-                edge = [[place, line[0, 1], z] for z in order]
-                line = np.insert(line, behind, edge, axis=0)
+        first = int(np.searchsorted(line[:, 0], self.at, "left"))
+        last = int(np.searchsorted(line[:, 0], self.end, "right"))
+        for place, before, heights in (
+            (self.end, last, (self.height, 0.0)),
+            (self.at, first, (0.0, self.height)),
+        ):
+            if 0 < before < len(line):
+                face = [(place, line[0, 1], z) for z in heights]
+                line = np.insert(line, before, face, axis=0)
         return line

@@ -92,10 +92,7 @@ class Ground(Surface):
 
     def numbers(self, radius: float) -> Numbers:
         """Obstacles; where each cell begins in a list of members, and that list."""
-        balls = self.obstacles()
-        first, members = cells(balls, radius)
-        most = int(np.diff(first).max())
-        return Numbers(balls.ravel(), np.concatenate([first, members]), 1 + most)
+        return _numbers(self, radius)
 
     @staticmethod
     def touch(
@@ -167,7 +164,15 @@ def _obstacles(ground: Ground) -> Array:
     return balls
 
 
-def cells(obstacles: Array, foot_radius: float) -> tuple[Integers, Integers]:
+@lru_cache(maxsize=8)
+def _numbers(ground: Ground, radius: float) -> Numbers:
+    balls = ground.obstacles()
+    first, members = _cells(balls, radius)
+    most = int(np.diff(first).max())
+    return Numbers(balls.ravel(), np.concatenate([first, members]), 1 + most)
+
+
+def _cells(obstacles: Array, foot_radius: float) -> tuple[Integers, Integers]:
     """Which obstacles a foot can touch from each cell of the tile.
 
     Args:

@@ -27,6 +27,7 @@ TOP = 30  # greatest height of the ground over its plane
 PARAMETERS = 31
 
 TIPPED_OVER = 0.5  # cosine of 60 degrees
+UPENDED = 0.174  # cosine of 80 degrees
 
 
 @compiled
@@ -282,8 +283,9 @@ def fallen(
 ) -> bool:
     """Whether the trunk is tipped by more than 60 degrees or a corner of it is in the ground.
 
-    The tilt is the angle between the upright axis of the trunk and the normal of the ground; it
-    knows no singular attitude.
+    The tilt is the angle between the upright axis of the trunk and the normal of the ground. On a
+    steep slope the trunk can point straight up or down before it is tipped that far; there yaw and
+    roll of the tree are one, so that it counts as fallen 10 degrees earlier.
 
     Args:
         q: coordinates of the tree; the first six count.
@@ -295,7 +297,7 @@ def fallen(
     upright = 0.0
     for i in range(3):
         upright += rotation[i][2] * ground[i][2]
-    if not upright >= TIPPED_OVER:
+    if not (upright >= TIPPED_OVER and abs(cos(q[4])) >= UPENDED):
         return True
     for k in range(corners.shape[0]):
         corner = _turn(rotation, (corners[k, 0], corners[k, 1], corners[k, 2]))

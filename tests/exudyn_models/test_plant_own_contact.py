@@ -10,8 +10,9 @@ from apnc.loop.walk import WalkOptions, walk
 from apnc.summary import summarise
 from build_fmu.build import host_fmu
 from exudyn_models.ground import Ground
-from exudyn_models.physics.plant import Plant, PlantOptions
-from exudyn_models.robot.file import load_robot
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.plant import Plant
+from exudyn_models.robot import load_robot
 
 LAWS = ("compiled", "exudyn")
 

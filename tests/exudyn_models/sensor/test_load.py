@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from exudyn_models.robot.file import load_robot
-from exudyn_models.robot.model import Sensor
+from exudyn_models.robot import Sensor, load_robot
 from exudyn_models.sensor.load import LoadSensor
 
 CLEAN = Sensor(delay=0.0, time_constant=0.0, noise=0.0)

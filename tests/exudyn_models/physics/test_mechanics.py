@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from exudyn_models.ground import Ground
-from exudyn_models.physics.plant import Plant, PlantOptions
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.plant import Plant
 from exudyn_models.physics.tree import BASE
-from exudyn_models.robot.file import load_robot
-from exudyn_models.robot.model import RobotDescription
+from exudyn_models.robot import RobotDescription, load_robot
 
 TICK = 1 / 60
 GRAVITY = 9.81

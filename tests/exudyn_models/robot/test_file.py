@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from exudyn_models.robot.file import ROBOTS, RobotDescriptionError, load_robot
+from exudyn_models.robot import ROBOTS, RobotDescriptionError, load_robot
 
 LILIBOT = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
 
@@ -38,18 +38,22 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
-        ("mass = 1.3", "mass = -1.3", "trunk.mass is -1.3; allowed: a finite number from 0"),
-        ("mass = 1.3", "mass = 0.0", "trunk.mass is 0.0; allowed: a number above 0"),
+        ("mass = 1.3", "mass = -1.3", "trunk.mass is -1.3; allowed: a finite number above 0 [kg]"),
+        ("mass = 1.3", "mass = 0.0", "trunk.mass is 0.0; allowed: a finite number above 0"),
         ("mass = 1.3", "mass = nan", "trunk.mass is nan"),
         ("mass = 1.3", 'mass = "1.3"', "trunk.mass is '1.3'"),
         ("mass = 1.3", "mass = true", "trunk.mass is True"),
-        ("mass = 1.3", "", "trunk.mass is 'missing'"),
+        ("mass = 1.3", "", "trunk.mass is missing"),
         ("mass = 1.3", "mass = 1.3\nmas = 2.0", "trunk.mas is 2.0; allowed: only"),
         ("size = [0.26, 0.16, 0.06]", "size = [0.26, 0.16]", "trunk.size is [0.26, 0.16]"),
         ("size = [0.26, 0.16, 0.06]", "size = [0.26, 0.0, 0.06]", "trunk.size"),
         ("tibia_angle = 92.0", "tibia_angle = 920.0", "leg.tibia_angle is 920.0"),
-        ('name = "RH"', 'name = "RF"', "legs is ['RF', 'RF', 'LF', 'LH']"),
-        ("[servo]", "[motor]", "servo is 'missing'; allowed: a table"),
+        (
+            'name = "RH"',
+            'name = "RF"',
+            "legs is ['RF', 'RF', 'LF', 'LH']; allowed: names that differ",
+        ),
+        ("[servo]", "[motor]", "motor is {"),
         ("delay = 0.0374", "delay = -0.05", "sensor.delay is -0.05"),
     ],
 )

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from exudyn_models.conditions import CONDITIONS, PAYLOAD, Conditions, named_conditions
-from exudyn_models.physics.plant import Plant, PlantOptions
-from exudyn_models.robot.file import load_robot
-from exudyn_models.robot.model import PAYLOAD_SIZE, Body, MassProperties
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.plant import Plant
+from exudyn_models.robot import PAYLOAD_SIZE, Body, MassProperties, load_robot
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
