@@ -1,42 +1,96 @@
-"""Values of parameters, checked against the table."""
+"""Values of parameters, checked against the table of variables."""
 
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
+from typing import Final
 
-from apnc_core.schema import Causality, Value
-from apnc_core.variables import row, rows
+from apnc_core.schema import Causality, Shape, Type, Variable
+from apnc_core.variables import rows
 
-Setting = Value | Sequence[float]
+Setting = float | int | bool | tuple[float, ...]
+"""Value of a parameter; an item of an enumeration is an int."""
+
+_PARAMETERS: Final = {v.name: v for v in rows(Causality.parameter)}
 
 
-def checked(name: str, value: Setting) -> Setting:
-    """Stand-in."""
-    if name not in [v.name for v in rows(Causality.parameter)]:
-        raise ValueError(f"parameter '{name}' is not one of the table")
-    return value
+def parameter(name: str) -> Variable:
+    """The row of a parameter.
+
+    Raises:
+        ValueError: no such parameter.
+    """
+    if name not in _PARAMETERS:
+        raise ValueError(f"parameter '{name}' is not one of {', '.join(_PARAMETERS)}")
+    return _PARAMETERS[name]
+
+
+def checked(name: str, value: object) -> Setting:
+    """The value of a parameter in its own type.
+
+    Args:
+        name: of the parameter, as in the table.
+        value: a number; true or false for a Boolean; name or number of an item for an enumeration;
+            a sequence of numbers for a row with one entry per phase relation.
+
+    Raises:
+        ValueError: unknown name, wrong type or out of range; a Real takes a whole number, an
+            Integer no other, and a Boolean no number.
+    """
+    row = parameter(name)
+    if row.shape is not Shape.scalar:
+        if isinstance(value, str) or not isinstance(value, Sequence):
+            raise _error(name, value, "a list of numbers")
+        return tuple(_number(row, item, value) for item in value)
+    if row.enumeration is not None:
+        return _item(row, value)
+    if row.type is Type.boolean:
+        if not isinstance(value, bool):
+            raise _error(name, value, "true or false")
+        return value
+    return _number(row, value, value)
 
 
 def parse(text: str) -> tuple[str, Setting]:
-    """``"xi=0.02"`` -> ``("xi", 0.02)``; enumerations by item name, Booleans true or false.
+    """``"xi=0.02"`` -> ``("xi", 0.02)``.
+
+    Args:
+        text: name, equals sign and value; the value as in JSON, an enumeration by item name.
 
     Raises:
-        ValueError: no such parameter, or a value of the wrong type.
+        ValueError: no such parameter, or a value it cannot have.
     """
     name, _, value = text.partition("=")
-    name = name.strip()
-    known = [v.name for v in rows(Causality.parameter)]
-    if name not in known:
-        raise ValueError(f"parameter '{name}' is not one of {', '.join(known)}")
-    enumeration = row(name).enumeration
-    if enumeration:
-        if value not in enumeration.items.__members__:
-            allowed = ", ".join(enumeration.items.__members__)
-            raise ValueError(f"{name} = '{value}' is not one of {allowed}")
-        return name, int(enumeration.items[value])
+    name, value = name.strip(), value.strip()
     try:
-        parsed = json.loads(value)
+        return name, checked(name, json.loads(value))
     except json.JSONDecodeError:
-        raise ValueError(f"{name} = '{value}' is not a number, true, false or a list") from None
-    return name, parsed
+        return name, checked(name, value)
+
+
+def _item(row: Variable, value: object) -> int:
+    assert row.enumeration is not None
+    items = row.enumeration.items
+    if isinstance(value, str) and value in items.__members__:
+        return items[value]
+    if isinstance(value, int) and not isinstance(value, bool) and value in list(items):
+        return items(value)
+    raise ValueError(f"{row.name} = {value!r} is not one of {', '.join(items.__members__)}")
+
+
+def _number(row: Variable, value: object, shown: object) -> float:
+    whole = row.type is Type.integer
+    assert row.min is not None and row.max is not None
+    allowed = f"{'a whole number' if whole else 'a number'} from {row.min:g} to {row.max:g}"
+    unit = f" [{row.unit}]" if row.unit not in (None, "1") else ""
+    if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
+        raise _error(row.name, shown, allowed + unit)
+    if not (math.isfinite(value) and row.min <= value <= row.max):
+        raise _error(row.name, shown, allowed + unit)
+    return value if whole else float(value)
+
+
+def _error(name: str, value: object, allowed: str) -> ValueError:
+    return ValueError(f"{name} = {value!r}; allowed: {allowed}")

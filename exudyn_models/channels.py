@@ -1,9 +1,13 @@
-"""What every plant shows: channels sampled once per tick."""
+"""What a plant shows at every tick: names, units and signs, the same for every engine."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Final
+
+XYZ: Final = ("x", "y", "z")
+JOINTS: Final = ("abduction", "hip", "knee")
+WORLD: Final = "world: x forward at the start, y to the left, z up"
 
 
 class PlantError(RuntimeError):
@@ -12,10 +16,16 @@ class PlantError(RuntimeError):
 
 @dataclass(frozen=True)
 class Channel:
-    """One recorded quantity: its unit, what it is, and the columns it has per sample.
+    """One quantity.
 
-    ``per_leg`` channels have one entry per leg, in the order of ``Record.legs``;
-    ``components`` names the entries of a vector (empty for a scalar).
+    Args:
+        name: its name.
+        unit: its unit.
+        description: what it is.
+        frame: frame of its components; empty if it has none.
+        per_leg: one entry per leg, in the order of the robot's legs.
+        components: names of the entries of a vector; empty for a scalar.
+        sign: what a positive value means; empty if the frame says it.
     """
 
     name: str
@@ -24,6 +34,7 @@ class Channel:
     frame: str = ""
     per_leg: bool = False
     components: tuple[str, ...] = ()
+    sign: str = ""
 
     def shape(self, n_legs: int) -> tuple[int, ...]:
         """Shape of one sample for a robot with ``n_legs`` legs."""
@@ -38,18 +49,41 @@ class Channel:
         return [f"{stem}.{component}" for stem in stems for component in self.components]
 
 
-XYZ: Final = ("x", "y", "z")
-JOINTS: Final = ("abduction", "hip", "knee")
+_RPY: Final = "positive roll: right side down; pitch: nose down; yaw: to the left"
+_JOINT: Final = "0 in the reference pose; positive abduction: to the left; hip: forward; knee: up"
 
 PLANT_CHANNELS: Final[tuple[Channel, ...]] = (
-    Channel("position", "m", "trunk reference point in the world frame", components=XYZ),
-    Channel("rpy", "rad", "trunk roll, pitch, yaw", components=("roll", "pitch", "yaw")),
-    Channel("velocity", "m/s", "trunk reference point velocity, world frame", components=XYZ),
-    Channel("joint_angle", "rad", "joint angle relative to the reference pose", "", True, JOINTS),
-    Channel("joint_speed", "rad/s", "joint angular velocity", "", True, JOINTS),
-    Channel("joint_torque", "N.m", "torque the servo applies to the joint", "", True, JOINTS),
-    Channel("joint_work", "J", "|torque times speed| over time since the start", "", True, JOINTS),
-    Channel("foot_position", "m", "centre of the foot ball, world frame", "", True, XYZ),
-    Channel("foot_force", "N", "force of the ground on the foot, world frame", "", True, XYZ),
-    Channel("grf", "N", "load the foot sensor delivers to the controller", "", True),
+    Channel("position", "m", "trunk reference point", WORLD, False, XYZ),
+    Channel(
+        "rpy",
+        "rad",
+        "roll, pitch and yaw of the trunk",
+        "world to trunk: yaw about z, then pitch about y, then roll about x",
+        False,
+        ("roll", "pitch", "yaw"),
+        _RPY,
+    ),
+    Channel("velocity", "m/s", "velocity of the trunk reference point", WORLD, False, XYZ),
+    Channel("joint_angle", "rad", "angle of the joint", "joint", True, JOINTS, _JOINT),
+    Channel("joint_speed", "rad/s", "speed of the joint", "joint", True, JOINTS, _JOINT),
+    Channel("joint_torque", "N.m", "torque of the servo", "joint", True, JOINTS, _JOINT),
+    Channel(
+        "joint_work",
+        "J",
+        "|torque times speed| of the servo over time since the start",
+        "joint",
+        True,
+        JOINTS,
+        "never decreases",
+    ),
+    Channel("foot_position", "m", "centre of the foot ball", WORLD, True, XYZ),
+    Channel("foot_force", "N", "force of the ground on the foot", WORLD, True, XYZ),
+    Channel(
+        "grf",
+        "N",
+        "load the foot sensor delivers to the controller",
+        per_leg=True,
+        sign="positive: the foot presses; never negative",
+    ),
 )
+"""Every channel of a plant, in the order of a record."""

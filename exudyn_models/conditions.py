@@ -8,6 +8,9 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Final
 
+ALL: Final = "*"
+"""Stands for every leg of a robot."""
+
 
 @dataclass(frozen=True)
 class Conditions:
@@ -18,7 +21,7 @@ class Conditions:
         grf_noise: standard deviation of noise added to the sensors' own, halves of the weight [1].
         damaged: legs whose hip and knee are held at angle 0 of the reference pose.
         stuck: what the sensor of a leg delivers for ever, in halves of the weight [1], by leg.
-        dropout: legs whose sensor delivers 0.
+        dropout: legs whose sensor delivers 0; ``("*",)`` for all of any robot.
         held_at: the trunk is held level at this height above its start [m]; None lets it go.
 
     Raises:
@@ -42,13 +45,17 @@ class Conditions:
             if not (math.isfinite(value) and value >= 0.0):
                 raise ValueError(f"{name} is {value}; allowed: a finite number, 0 or more")
 
+    def silent(self, legs: tuple[str, ...]) -> tuple[str, ...]:
+        """Which of a robot's legs have a sensor that delivers 0."""
+        return legs if self.dropout == (ALL,) else self.dropout
+
     def check_legs(self, legs: tuple[str, ...]) -> None:
         """Refuse names of legs that the robot does not have.
 
         Raises:
             ValueError: an unknown leg.
         """
-        for leg in (*self.damaged, *self.stuck, *self.dropout):
+        for leg in (*self.damaged, *self.stuck, *self.silent(legs)):
             if leg not in legs:
                 raise ValueError(f"leg {leg!r} is not one of {', '.join(legs)}")
 
@@ -67,7 +74,7 @@ CONDITIONS: Final[Mapping[str, Conditions]] = MappingProxyType(
         "C4": Conditions(payload=PAYLOAD),
         "S1": Conditions(held_at=0.02),
         "S2": Conditions(stuck={"RF": 0.9, "LF": 0.9}),
-        "S3": Conditions(dropout=("RF", "RH", "LF", "LH")),
+        "S3": Conditions(dropout=(ALL,)),
     }
 )
 """Conditions of the paper by name: 3.1.4 (C1 normal, C2 noisy feedback, C3 leg damage, C4 payload)

@@ -1,32 +1,33 @@
 """Servos, contact of the feet and suspension: every force Exudyn does not know, compiled.
 
 Exudyn calls :func:`evaluate` once per integration step. Its own contact costs more than the rest
-of the robot together, and knows neither a contact whose damping sets in gradually nor a field of
-obstacles whose cost does not grow with its size.
+of the robot together, and knows neither a contact whose damping sets in gradually nor grounds of
+any shape. Where a foot touches is asked of the ground's touch function, which comes by its address.
 """
 
 from __future__ import annotations
 
-from math import cos, floor, sin, sqrt
+from math import cos, sin, sqrt
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from exudyn_models.ground.surface import Integers
 from exudyn_models.physics.compiled import compiled
+from exudyn_models.physics.touching import call_touch
 from exudyn_models.robot.model import Array
 
 V3 = tuple[float, float, float]
 Rows = tuple[V3, V3, V3]
-Integers = NDArray[np.int64]
 
 # Where things lie in the flat array of parameters.
 SERVO = 0  # stiffness, damping, stall torque, no-load speed
 CONTACT = 4  # radius, stiffness, damping, damping depth, friction, friction speed
 HOLD = 10  # on, stiffness and damping of position, of rotation, six coordinates held
 GROUND = 21  # rotation from ground to world, row by row
-FIELD = 30  # edge of the repeated tile of obstacles [m], cells per edge, greatest height [m]
-PARAMETERS = 33
+TOP = 30  # greatest height of the ground over its plane
+PARAMETERS = 31
+
+TIPPED_OVER = 0.5  # cosine of 60 degrees
+UPENDED = 0.174  # cosine of 80 degrees
 
 
 @compiled
@@ -62,6 +63,12 @@ def _turn(rows: Rows, a: V3) -> V3:
 @compiled
 def _turn_back(rows: Rows, a: V3) -> V3:
     return _add(_add(_scale(a[0], rows[0]), _scale(a[1], rows[1])), _scale(a[2], rows[2]))
+
+
+@compiled
+def _rows(parameters: Array) -> Rows:
+    g = parameters[GROUND:TOP]
+    return ((g[0], g[1], g[2]), (g[3], g[4], g[5]), (g[6], g[7], g[8]))
 
 
 @compiled
@@ -202,53 +209,16 @@ def _touch(
 
 
 @compiled
-def _stand(
-    parameters: Array,
-    obstacles: Array,
-    first_of_cell: Integers,
-    members: Integers,
-    ground: Rows,
-    body: Any,
-    leg: Any,
-    at: V3,
-    out: Array,
-    force: Array,
-    load: Array,
-) -> None:
-    """All contacts of one foot, whose centre is ``at`` in the frame of the ground."""
-    contact = parameters[CONTACT:HOLD]
-    radius = contact[0]
-    if at[2] < radius:
-        _touch(contact, ground, body, leg, (0.0, 0.0, 1.0), radius - at[2], out, force, load)
-    if at[2] >= radius + parameters[FIELD + 2]:
-        return
-    tile, edge = parameters[FIELD], int(parameters[FIELD + 1])
-    # The remainder of a tiny negative number rounds up to the divisor: hence twice.
-    column = int(at[0] / tile * edge % edge) % edge
-    row = int(at[1] / tile * edge % edge) % edge
-    cell = row * edge + column
-    for k in range(first_of_cell[cell], first_of_cell[cell + 1]):
-        ball = obstacles[members[k]]
-        dx, dy = at[0] - ball[0], at[1] - ball[1]
-        away = (dx - tile * floor(dx / tile + 0.5), dy - tile * floor(dy / tile + 0.5))
-        offset = (away[0], away[1], at[2] - ball[2])
-        distance = sqrt(_dot(offset, offset))
-        depth = radius + ball[3] - distance
-        if depth > 0.0:
-            normal = _scale(1.0 / distance, offset)
-            _touch(contact, ground, body, leg, normal, depth, out, force, load)
-
-
-@compiled
 def evaluate(
     q: Array,
     v: Array,
     target: Array,
     geometry: Array,
     parameters: Array,
-    obstacles: Array,
-    first_of_cell: Integers,
-    members: Integers,
+    touch: int,
+    reals: Array,
+    integers: Integers,
+    found: Array,
     dt: float,
     work: Array,
     out: Array,
@@ -259,9 +229,10 @@ def evaluate(
         q, v: coordinates and speeds of the tree, shape (6 + 3 n_legs,), see ``tree.BASE``.
         target: commanded tree coordinates of the joints [rad], shape (3 n_legs,).
         geometry: a row per leg as :func:`leg_points` takes it, shape (n_legs, 10).
-        parameters: see ``SERVO`` to ``FIELD``, shape (``PARAMETERS``,).
-        obstacles: centre and radius of balls in the frame of the ground [m], shape (balls, 4).
-        first_of_cell, members: balls of each cell of the tile, one after the other.
+        parameters: see ``SERVO`` to ``TOP``, shape (``PARAMETERS``,).
+        touch: address of the ground's touch function.
+        reals, integers: what it reads.
+        found: where it writes normal and depth of each contact, shape (contacts, 4).
         dt, work: length of the step that begins [s], and what the work of the servos during it,
             |torque speed| dt, is added to [J], shape (3 n_legs,).
         out: generalized forces (6 + 3 n_legs), servo torques (3 n_legs), foot centres and forces
@@ -275,8 +246,9 @@ def evaluate(
     forces, loads = out[size + 6 * legs : size + 9 * legs], out[size + 9 * legs :]
     _suspend(parameters[HOLD:GROUND], q, v, out)
     _drive(parameters[SERVO:CONTACT], q, v, target, dt, work, out)
-    g = parameters[GROUND:FIELD]
-    ground = ((g[0], g[1], g[2]), (g[3], g[4], g[5]), (g[6], g[7], g[8]))
+    contact = parameters[CONTACT:HOLD]
+    radius, top = parameters[CONTACT], parameters[TOP]
+    ground = _rows(parameters)
     rotation = rotation_rpy(q[5], q[4], q[3])
     base = _turn_back(rotation, (v[0], v[1], v[2]))
     roll = q[5]
@@ -288,12 +260,50 @@ def evaluate(
         center = _add((q[0], q[1], q[2]), _turn(rotation, foot))
         feet[3 * k], feet[3 * k + 1], feet[3 * k + 2] = center[0], center[1], center[2]
         at = _turn_back(ground, center)
-        if at[2] < parameters[CONTACT] + parameters[FIELD + 2]:
+        if at[2] < radius + top:
+            count = call_touch(touch, at[0], at[1], at[2], radius, reals, integers, found)
             mount = (geometry[k, 0], geometry[k, 1], geometry[k, 2])
             speeds = (v[i], -v[i + 1], -v[i + 2])
             leg = (i, mount, hip, knee, foot, axis, speeds)
             force, load = forces[3 * k : 3 * k + 3], loads[k : k + 1]
-            _stand(
-                parameters, obstacles, first_of_cell, members,
-                ground, body, leg, at, out, force, load,
-            )  # fmt: skip
+            for c in range(count):
+                normal = (found[c, 0], found[c, 1], found[c, 2])
+                _touch(contact, ground, body, leg, normal, found[c, 3], out, force, load)
+
+
+@compiled
+def fallen(
+    q: Array,
+    corners: Array,
+    parameters: Array,
+    touch: int,
+    reals: Array,
+    integers: Integers,
+    found: Array,
+) -> bool:
+    """Whether the trunk is tipped by more than 60 degrees or a corner of it is in the ground.
+
+    The tilt is the angle between the upright axis of the trunk and the normal of the ground. On a
+    steep slope the trunk can point straight up or down before it is tipped that far; there yaw and
+    roll of the tree are one, so that it counts as fallen 10 degrees earlier.
+
+    Args:
+        q: coordinates of the tree; the first six count.
+        corners: of the trunk, in its frame [m], shape (corners, 3).
+        parameters, touch, reals, integers, found: as :func:`evaluate` takes them.
+    """
+    ground = _rows(parameters)
+    rotation = rotation_rpy(q[5], q[4], q[3])
+    upright = 0.0
+    for i in range(3):
+        upright += rotation[i][2] * ground[i][2]
+    if not (upright >= TIPPED_OVER and abs(cos(q[4])) >= UPENDED):
+        return True
+    for k in range(corners.shape[0]):
+        corner = _turn(rotation, (corners[k, 0], corners[k, 1], corners[k, 2]))
+        at = _turn_back(ground, _add((q[0], q[1], q[2]), corner))
+        if at[2] < parameters[TOP]:
+            count = call_touch(touch, at[0], at[1], at[2], 0.0, reals, integers, found)
+            if count > 0:
+                return True
+    return False

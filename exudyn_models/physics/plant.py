@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from exudyn_models.channels import PlantError
 from exudyn_models.conditions import Conditions
-from exudyn_models.ground.terrain import Ground
+from exudyn_models.ground import Plane, Surface
 from exudyn_models.physics.engine import exu
-from exudyn_models.physics.forces import rotation_rpy
 from exudyn_models.physics.options import PlantOptions
 from exudyn_models.physics.own_contact import add_own_contact, own_foot_forces
 from exudyn_models.physics.robot_forces import RobotForces
@@ -21,8 +20,6 @@ from exudyn_models.physics.tree import BASE, JOINT_SIGN, add_tree
 from exudyn_models.robot.model import Array, RobotDescription
 from exudyn_models.sensor.load import LoadSensor
 from exudyn_models.trace import Trace
-
-TIPPED_OVER: Final = math.radians(60.0)
 
 
 class Plant:
@@ -44,7 +41,7 @@ class Plant:
         seed: int = 0,
         *,
         options: PlantOptions | None = None,
-        ground: Ground | None = None,
+        ground: Surface | None = None,
         conditions: Conditions | None = None,
     ) -> None:
         """Put the robot on the ground.
@@ -61,7 +58,7 @@ class Plant:
             PlantError: Exudyn refused the model.
         """
         self._robot, self._options = robot, options or PlantOptions()
-        self._ground = ground or Ground()
+        self._ground = ground or Plane()
         self._conditions = conditions or Conditions()
         self.legs = tuple(leg.name for leg in robot.legs)
         self.n_legs = len(self.legs)
@@ -72,7 +69,6 @@ class Plant:
             robot.sensor, self.legs, robot.weight, np.random.default_rng(noise_seed)
         )
         self._reading = np.zeros(self.n_legs)
-        self._corners = robot.trunk.corners()
         self._build(_side_offset(robot, np.random.default_rng(body_seed)))
         self.set_conditions(self._conditions)
 
@@ -83,7 +79,7 @@ class Plant:
         coordinates = self._start.copy()
         coordinates[2] += self._conditions.held_at or 0.0
         own = options.contact == "exudyn"
-        if own and (self._ground.slope or self._ground.roughness):
+        if own and (self._ground.slope or not self._ground.flat):
             raise ValueError("contact 'exudyn' knows level ground without obstacles only")
         self._forces = RobotForces(robot, self._ground, coordinates[BASE:], touches=not own)
         self._commanded = coordinates[BASE:].reshape(-1, 3) * JOINT_SIGN
@@ -202,14 +198,16 @@ class Plant:
 
     def trace(self) -> Trace:
         """A recorder of every channel in ``PLANT_CHANNELS``, a row per tick."""
-        parts = (self._q, self._v, self._forces.result, self._forces.work, self._reading)
-        return Trace(parts, self._channels)
+        return Trace(self._parts, self._channels)
 
     def sample(self) -> dict[str, Array]:
-        """One sample of every channel in ``recording.PLANT_CHANNELS``, at the current time."""
-        trace = self.trace()
-        trace.take()
-        return {name: values[0] for name, values in trace.channels().items()}
+        """One sample of every channel in ``PLANT_CHANNELS``, at the current time."""
+        channels = self._channels(np.concatenate(self._parts)[np.newaxis])
+        return {name: values[0] for name, values in channels.items()}
+
+    @property
+    def _parts(self) -> tuple[Array, ...]:
+        return (self._q, self._v, self._forces.result, self._forces.work, self._reading)
 
     def _channels(self, rows: Array) -> dict[str, Array]:
         n, size = self.n_legs, BASE + 3 * self.n_legs
@@ -234,12 +232,11 @@ class Plant:
 
     @property
     def fell(self) -> bool:
-        """Whether roll or pitch exceeds 60 degrees or a corner of the trunk touches the plane."""
-        yaw, pitch, roll = self._q[3:6]
-        normal = self._ground.rotation()[:, 2]
-        rotation = np.array(rotation_rpy(roll, pitch, yaw))
-        lowest = ((self._q[:3] + self._corners @ rotation.T) @ normal).min()
-        return bool(max(abs(roll), abs(pitch)) > TIPPED_OVER or lowest <= 0.0)
+        """Whether the trunk is tipped by more than 60 degrees or touches the ground with a corner.
+
+        The tilt is measured against the normal of the ground.
+        """
+        return self._forces.fallen(self._q)
 
 
 def _side_offset(robot: RobotDescription, random: np.random.Generator) -> float:

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_models.ground.terrain import CELLS, TILE, Ground, cells
+from exudyn_models.ground.surface import Surface
 from exudyn_models.physics import forces
+from exudyn_models.physics.touching import touch_of
 from exudyn_models.physics.tree import BASE
 from exudyn_models.robot.model import Array, RobotDescription
 
@@ -55,7 +56,7 @@ class RobotForces:
     """
 
     def __init__(
-        self, robot: RobotDescription, ground: Ground, target: Array, *, touches: bool = True
+        self, robot: RobotDescription, ground: Surface, target: Array, *, touches: bool = True
     ) -> None:
         """Bind the forces to a robot on a ground.
 
@@ -86,17 +87,19 @@ class RobotForces:
             contact.friction_speed,
         )
         parameters[forces.HOLD + 1 : forces.HOLD + 5] = HOLD_GAINS
-        parameters[forces.GROUND : forces.FIELD] = ground.rotation().ravel()
-        parameters[forces.FIELD :] = (TILE, CELLS, ground.height)
+        parameters[forces.GROUND : forces.TOP] = ground.rotation().ravel()
+        parameters[forces.TOP] = ground.top
         self._hold = parameters[forces.HOLD : forces.GROUND]
-        obstacles = ground.obstacles()
         self.geometry = leg_geometry(robot)
-        self._fixed = (
-            self.geometry,
+        numbers = ground.numbers(contact.foot_radius)
+        self._ground = (
             parameters,
-            obstacles,
-            *cells(obstacles, contact.foot_radius),
+            touch_of(type(ground)).address,
+            np.ascontiguousarray(numbers.reals, np.float64),
+            np.ascontiguousarray(numbers.integers, np.int64),
+            np.zeros((numbers.contacts, 4)),
         )
+        self._corners = robot.trunk.corners()
         size = BASE + 3 * n
         # Twice as fast as making arrays of the lists, 32 times per tick.
         self._pack = struct.Struct(f"{size}d").pack_into
@@ -123,7 +126,8 @@ class RobotForces:
             self._q,
             self._v,
             self.target,
-            *self._fixed,
+            self.geometry,
+            *self._ground,
             self.step,
             self.work,
             self._generalized,
@@ -133,4 +137,10 @@ class RobotForces:
 
     def measure(self, q: Array, v: Array) -> None:
         """Evaluate at coordinates and speeds of the tree and keep the result."""
-        forces.evaluate(q, v, self.target, *self._fixed, 0.0, self.work, self._measured)
+        forces.evaluate(
+            q, v, self.target, self.geometry, *self._ground, 0.0, self.work, self._measured
+        )
+
+    def fallen(self, q: Array) -> bool:
+        """Whether the robot has fallen, at coordinates of the tree, see :func:`forces.fallen`."""
+        return forces.fallen(q, self._corners, *self._ground)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from exudyn_models.ground.terrain import Ground, lowest_free
+from exudyn_models.ground.surface import Surface
 from exudyn_models.physics.forces import leg_points
 from exudyn_models.physics.robot_forces import leg_geometry
 from exudyn_models.physics.tree import JOINT_SIGN
@@ -12,20 +12,21 @@ from exudyn_models.robot.model import Array, RobotDescription
 
 
 def start_coordinates(
-    robot: RobotDescription, ground: Ground, angles: Array, clearance: float
+    robot: RobotDescription, ground: Surface, angles: Array, clearance: float
 ) -> Array:
     """Tree coordinates of a robot over the origin, parallel to the ground, its feet just above it.
 
     Args:
         robot: the robot.
-        ground: the ground; obstacles under the feet lift the robot.
+        ground: the ground; what is high under the feet lifts the robot.
         angles: abduction, hip and knee of every leg [rad], shape (3,).
         clearance: height of the lowest foot above what is below it [m].
     """
     radius = robot.contact.foot_radius
-    obstacles = ground.obstacles()
     feet = [np.array(leg_points(leg, *angles)[2]) for leg in leg_geometry(robot)]
-    height = clearance + max(lowest_free(obstacles, foot, radius) - foot[2] for foot in feet)
+    height = clearance + max(
+        ground.rest_height(foot[0], foot[1], radius) - foot[2] for foot in feet
+    )
     place = height * ground.rotation()[:, 2]
     base = [*place, 0.0, -ground.slope, 0.0]
     return np.concatenate([base, np.tile(angles * JOINT_SIGN, len(robot.legs))])

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Annotated, Final, cast
 
 import numpy as np
 from numpy.typing import NDArray
+
+from apnc_core.settings import checked
+from exudyn_models.robot.quantity import FLAT, Checked, NotAllowedError, RobotDescriptionError, Rule
 
 Array = NDArray[np.float64]
 Vector3 = tuple[float, float, float]
@@ -38,8 +41,13 @@ class MassProperties:
         return self.inertia + self.mass * ((d @ d) * np.eye(3) - np.outer(d, d))
 
 
+def _box_inertia(mass: float, size: Vector3) -> Array:
+    x, y, z = (edge**2 for edge in size)
+    return np.diag([y + z, x + z, x + y]) * (mass / 12.0)
+
+
 @dataclass(frozen=True)
-class Body:
+class Body(Checked):
     """A rigid link with the inertia of a homogeneous box.
 
     Args:
@@ -48,29 +56,29 @@ class Body:
         com: centre of mass in the frame of the link [m].
     """
 
-    mass: float
-    size: Vector3
-    com: Vector3
+    mass: Annotated[float, Rule("kg", positive=True)]
+    size: Annotated[Vector3, Rule("m", positive=True, count=3)]
+    com: Annotated[Vector3, Rule("m", count=3)]
 
     def inertia(self) -> Array:
         """Inertia tensor about the centre of mass [kg m^2], shape (3, 3)."""
-        x, y, z = (edge**2 for edge in self.size)
-        return np.diag([y + z, x + z, x + y]) * (self.mass / 12.0)
+        return _box_inertia(self.mass, self.size)
 
 
 @dataclass(frozen=True)
-class Trunk:
+class Trunk(Checked):
     """The body that carries the legs.
 
     Args:
-        body: mass properties; ``com`` is measured from the reference point between the hips.
+        body: mass properties, in a file beside the other keys; ``com`` is measured from the
+            reference point between the hips.
         center: middle of the box [m]; differs from the centre of mass.
         com_side_offset: size of the seeded sideways error of the centre of mass [m].
     """
 
-    body: Body
-    center: Vector3
-    com_side_offset: float
+    body: Annotated[Body, FLAT]
+    center: Annotated[Vector3, Rule("m", count=3)] = (0.0, 0.0, 0.0)
+    com_side_offset: Annotated[float, Rule("m", low=0.0)] = 0.0
 
     def corners(self) -> Array:
         """Corners of the box relative to the reference point [m], shape (8, 3)."""
@@ -88,12 +96,11 @@ class Trunk:
         own = MassProperties(self.body.mass, com, self.body.inertia())
         top = (self.body.size[2] + PAYLOAD_SIZE[2]) / 2.0
         on_top = np.add(self.center, [0.0, 0.0, top])
-        box = Body(payload, PAYLOAD_SIZE, (0.0, 0.0, 0.0))
-        return own.joined(MassProperties(payload, on_top, box.inertia()))
+        return own.joined(MassProperties(payload, on_top, _box_inertia(payload, PAYLOAD_SIZE)))
 
 
 @dataclass(frozen=True)
-class Leg:
+class Leg(Checked):
     """A leg with an abduction joint about x, and hip and knee joints about y.
 
     Vectors other than ``mount`` have y pointing outward, away from the middle plane.
@@ -108,13 +115,13 @@ class Leg:
         hip, femur, tibia: mass properties of the three links, in frames at their joints.
     """
 
-    name: str
-    mount: Vector3
-    hip_offset: Vector3
-    femur_length: float
-    tibia_length: float
-    femur_angle: float
-    tibia_angle: float
+    name: Annotated[str, Rule(words=())]
+    mount: Annotated[Vector3, Rule("m", count=3)]
+    hip_offset: Annotated[Vector3, Rule("m", count=3)]
+    femur_length: Annotated[float, Rule("m", positive=True)]
+    tibia_length: Annotated[float, Rule("m", positive=True)]
+    femur_angle: Annotated[float, Rule("deg", low=-180.0, high=180.0)]
+    tibia_angle: Annotated[float, Rule("deg", low=-180.0, high=180.0)]
     hip: Body
     femur: Body
     tibia: Body
@@ -139,7 +146,7 @@ class Leg:
 
 
 @dataclass(frozen=True)
-class Servo:
+class Servo(Checked):
     """A geared position servo.
 
     Args:
@@ -152,17 +159,17 @@ class Servo:
         slew_rate: fastest change of the command that the servo follows [rad/s]; 0 for no limit.
     """
 
-    stiffness: float
-    damping: float
-    stall_torque: float
-    no_load_speed: float
-    reflected_inertia: float
-    latency: float = 0.0
-    slew_rate: float = 0.0
+    stiffness: Annotated[float, Rule("N m/rad", positive=True)]
+    damping: Annotated[float, Rule("N m s/rad", low=0.0)]
+    stall_torque: Annotated[float, Rule("N m", positive=True)]
+    no_load_speed: Annotated[float, Rule("rad/s", positive=True)]
+    reflected_inertia: Annotated[float, Rule("kg m^2", low=0.0)] = 0.0
+    latency: Annotated[float, Rule("s", low=0.0)] = 0.0
+    slew_rate: Annotated[float, Rule("rad/s", low=0.0)] = 0.0
 
 
 @dataclass(frozen=True)
-class Contact:
+class Contact(Checked):
     """Rubber ball against hard ground.
 
     Args:
@@ -175,16 +182,16 @@ class Contact:
         friction_speed: below this sliding speed friction is proportional to it [m/s].
     """
 
-    foot_radius: float
-    stiffness: float
-    damping: float
-    damping_depth: float
-    friction: float
-    friction_speed: float
+    foot_radius: Annotated[float, Rule("m", positive=True)]
+    stiffness: Annotated[float, Rule("N/m", positive=True)]
+    damping: Annotated[float, Rule("N s/m", low=0.0)]
+    damping_depth: Annotated[float, Rule("m", positive=True)] = 0.0002
+    friction: Annotated[float, Rule("1", low=0.0)] = 0.8
+    friction_speed: Annotated[float, Rule("m/s", positive=True)] = 0.03
 
 
 @dataclass(frozen=True)
-class Sensor:
+class Sensor(Checked):
     """What separates the load on a foot from the load the controller sees.
 
     Args:
@@ -195,23 +202,55 @@ class Sensor:
         noise: standard deviation, in halves of the robot's weight [1].
     """
 
-    delay: float
-    time_constant: float
-    noise: float
-    component: str = "normal"
+    delay: Annotated[float, Rule("s", low=0.0)] = 0.0
+    time_constant: Annotated[float, Rule("s", low=0.0)] = 0.0
+    noise: Annotated[float, Rule("1", low=0.0)] = 0.0
+    component: Annotated[str, Rule(words=("normal", "norm"))] = "normal"
+
+
+_OF_THE_RUN: Final = ("Ts", "robot_weight", "phi_stored", "stored")
+"""Parameters of the controller that a run sets, not its robot."""
 
 
 @dataclass(frozen=True)
-class RobotDescription:
-    """A robot as data, independent of any engine."""
+class RobotDescription(Checked):
+    """A robot as data, independent of any engine.
 
-    name: str
+    Args:
+        name: its name.
+        trunk, servo, contact, sensor: its parts.
+        legs: in any order; kept in the order of the controller: right legs (y < 0) from front to
+            hind, then the others from front to hind.
+        controller: its own preset: parameters of the controller that differ from the defaults, by
+            name. Enumerations by item name or number.
+
+    Raises:
+        NotAllowedError: two legs of one name; right legs that are not half of all, rounded down
+            (the controller takes the first n // 2 legs for the right ones); no such parameter, or
+            a value it cannot have.
+    """
+
+    name: Annotated[str, Rule(words=())]
     trunk: Trunk
     legs: tuple[Leg, ...]
     servo: Servo
     contact: Contact
-    sensor: Sensor
-    controller: Mapping[str, float] = field(default_factory=dict)
+    sensor: Sensor = field(default_factory=Sensor)
+    controller: Mapping[str, float | int | bool] = field(default_factory=dict, hash=False)
+
+    def __post_init__(self) -> None:
+        """Put the legs in order and check them and the preset."""
+        super().__post_init__()
+        ordered = tuple(sorted(self.legs, key=lambda leg: (leg.side, -leg.mount[0])))
+        object.__setattr__(self, "legs", ordered)
+        names = [leg.name for leg in ordered]
+        if len(set(names)) != len(names):
+            raise NotAllowedError("legs", names, "names that differ")
+        right = [leg.name for leg in ordered if leg.side < 0.0]
+        if len(right) != len(ordered) // 2:
+            allowed = f"{len(ordered) // 2} of {len(ordered)} legs with y < 0, right of the middle"
+            raise NotAllowedError("legs", f"{len(right)} right ({', '.join(right)})", allowed)
+        object.__setattr__(self, "controller", _preset(self.controller))
 
     @property
     def mass(self) -> float:
@@ -222,3 +261,15 @@ class RobotDescription:
     def weight(self) -> float:
         """Weight on earth [N]."""
         return self.mass * GRAVITY
+
+
+def _preset(values: Mapping[str, object]) -> dict[str, float | int | bool]:
+    preset: dict[str, float | int | bool] = {}
+    for name, value in values.items():
+        if name in _OF_THE_RUN:
+            raise NotAllowedError(f"controller.{name}", value, "parameters that a run does not set")
+        try:
+            preset[name] = cast(float | int | bool, checked(name, value))
+        except ValueError as error:
+            raise RobotDescriptionError(f"controller: {error}") from None
+    return preset

@@ -41,7 +41,7 @@ class LoadSensor:
         """From now on add noise, stick at a value or deliver nothing, as ``conditions`` says."""
         self._deviation = np.hypot(self._sensor.noise, conditions.grf_noise) * self._half
         stuck = {leg: value * self._half for leg, value in conditions.stuck.items()}
-        stuck |= dict.fromkeys(conditions.dropout, 0.0)
+        stuck |= dict.fromkeys(conditions.silent(self._legs), 0.0)
         self._broken = [self._legs.index(leg) for leg in stuck]
         self._constant = list(stuck.values())
 

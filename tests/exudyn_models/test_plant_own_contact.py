@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from apnc.loop.recording import Record
 from apnc.loop.walk import WalkOptions, walk
+
 from apnc.summary import summarise
 from build_fmu.build import host_fmu
-from exudyn_models.ground.terrain import Ground
-from exudyn_models.physics.plant import Plant, PlantOptions
-from exudyn_models.robot.file import load_robot
+from exudyn_models.ground import Ground
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.plant import Plant
+from exudyn_models.robot import load_robot
 
 LAWS = ("compiled", "exudyn")
 

@@ -25,7 +25,7 @@ from apnc_core.schema import Causality
 from apnc_core.variables import rows
 from build_fmu.build import host_fmu
 from exudyn_models.conditions import named_conditions
-from exudyn_models.ground.terrain import Ground
+from exudyn_models.ground import Ground
 from exudyn_models.physics.plant import Plant
 from exudyn_models.robot.file import load_robot
 

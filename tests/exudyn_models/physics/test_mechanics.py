@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_models.ground.terrain import Ground
-from exudyn_models.physics.plant import Plant, PlantOptions
+from exudyn_models.ground import Ground
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.plant import Plant
 from exudyn_models.physics.tree import BASE
-from exudyn_models.robot.file import load_robot
-from exudyn_models.robot.model import RobotDescription
+from exudyn_models.robot import RobotDescription, load_robot
 
 TICK = 1 / 60
 GRAVITY = 9.81
@@ -174,3 +174,22 @@ def test_recorded_work_is_that_of_every_step() -> None:
             summed += power * TICK / 128
     assert summed > 1.0
     assert plant.sample()["joint_work"].sum() == pytest.approx(summed, rel=0.01)
+
+
+def test_the_centre_of_mass_is_off_to_either_side_by_the_stated_amount() -> None:
+    # Moments about the x axis: the trunk's offset is all that makes left and right differ.
+    quiet = replace(ROBOT, trunk=replace(ROBOT.trunk, com_side_offset=0.004))
+    offsets = []
+    for seed in range(8):
+        plant = Plant(quiet, seed)
+        for _ in range(90):
+            plant.advance(ZERO, ZERO, TICK)
+        sample = plant.sample()
+        force, foot = sample["foot_force"], sample["foot_position"] - sample["position"]
+        ground = foot - [0.0, 0.0, ROBOT.contact.foot_radius]
+        moment = (ground[:, 1] * force[:, 2] - ground[:, 2] * force[:, 1]).sum()
+        offsets.append(moment / (ROBOT.trunk.body.mass * GRAVITY))
+    sizes = np.abs(offsets) / 0.004
+    assert 0.7 < sizes.min() < sizes.max() < 1.3
+    assert 2 <= np.sum(np.array(offsets) > 0.0) <= 6
+    assert np.ptp(sizes) > 0.1

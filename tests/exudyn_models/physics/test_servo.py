@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from exudyn_models.physics.forces import servo_torque
-from exudyn_models.physics.plant import Plant, PlantOptions
-from exudyn_models.robot.file import load_robot
-from exudyn_models.robot.model import RobotDescription, Servo
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.plant import Plant
+from exudyn_models.robot import RobotDescription, Servo, load_robot
 
 SERVO = Servo(
     stiffness=20.0, damping=0.5, stall_torque=4.0, no_load_speed=5.0, reflected_inertia=1.0

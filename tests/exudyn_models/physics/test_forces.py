@@ -1,4 +1,4 @@
-"""The compiled forces against closed form: contact law, leverage of the feet, obstacles."""
+"""The compiled forces against closed form: contact law, leverage of the feet, grounds."""
 
 import math
 from dataclasses import replace
@@ -6,11 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_models.ground.terrain import STEP_HEIGHT, TILE, Ground
+from exudyn_models.ground import Ground, Kerb, Plane, Surface, Waves
+from exudyn_models.ground.obstacles import TILE
 from exudyn_models.physics.forces import contact_force
 from exudyn_models.physics.robot_forces import RobotForces
 from exudyn_models.physics.tree import BASE
-from exudyn_models.robot.file import load_robot
+from exudyn_models.robot import load_robot
 
 ROBOT = load_robot("lilibot")
 UP = (0.0, 0.0, 1.0)
@@ -61,7 +62,7 @@ def test_a_force_on_a_foot_moves_the_robot_as_the_foot_moves() -> None:
     # Virtual work: for a frictionless ball the force acts through its centre, so Q = J^T f with
     # the Jacobian of the centre, here by central differences.
     smooth = replace(ROBOT, contact=replace(ROBOT.contact, friction=0.0, damping=0.0))
-    forces = RobotForces(smooth, Ground(slope=0.2), np.zeros(12))
+    forces = RobotForces(smooth, Plane(slope=0.2), np.zeros(12))
     for seed in range(5):
         q, v = bent(seed)
         q[2] += q[0] * math.tan(0.2)
@@ -79,7 +80,7 @@ def test_a_force_on_a_foot_moves_the_robot_as_the_foot_moves() -> None:
 def test_friction_and_damping_take_power_out_of_the_robot() -> None:
     # P = Q . v must be what the contact law loses at the speed of the contact point; with a rigid
     # twist of the whole robot that speed is known without any leg kinematics.
-    forces = RobotForces(ROBOT, Ground(), np.zeros(12))
+    forces = RobotForces(ROBOT, Plane(), np.zeros(12))
     q, _ = bent(1)
     q[3:BASE] = 0.0
     q[2] = 0.12
@@ -147,51 +148,27 @@ def test_no_ground_is_missed_at_the_seam_of_cells() -> None:
         assert one_foot_at(forces, np.array([x, -1e-20, 0.011]))[2] >= of_the_plane - 1e-6
 
 
-@pytest.mark.parametrize("roughness", [0.2, 1.0])
-def test_obstacles_have_the_height_and_density_asked_for(roughness: float) -> None:
-    ground = Ground(roughness=roughness, seed=3)
-    balls = ground.obstacles()
-    np.testing.assert_allclose(balls[:, 2] + balls[:, 3], roughness * STEP_HEIGHT, atol=1e-15)
-    assert len(balls) == 960
-    diameters = 2.0 * balls[:, 3]
-    assert 0.03 <= diameters.min() < 0.031
-    assert 0.099 < diameters.max() <= 0.1
-    # Uniform: the mean of 960 diameters is within 4 standard errors of 65 mm.
-    assert diameters.mean() == pytest.approx(0.065, abs=4 * 0.07 / math.sqrt(12 * 960))
-
-
-def test_obstacles_cover_the_share_of_ground_that_chance_gives() -> None:
-    # Caps of base radius a thrown at random leave free a share of exp(-density pi E[a^2]).
-    ground = Ground(roughness=1.0, seed=7)
-    balls = ground.obstacles()
-    base = balls[:, 3] ** 2 - balls[:, 2] ** 2
-    free = math.exp(-ground.density * math.pi * base.mean())
-    points = np.random.default_rng(0).uniform(0.0, TILE, (4000, 1, 2))
-    offset = points - balls[None, :, :2]
-    offset -= TILE * np.round(offset / TILE)
-    covered = ((offset**2).sum(axis=2) < base).any(axis=1).mean()
-    assert covered == pytest.approx(1.0 - free, abs=0.03)
-
-
-def test_obstacles_are_seeded() -> None:
-    same, other = Ground(roughness=1.0, seed=1), Ground(roughness=1.0, seed=2)
-    np.testing.assert_array_equal(same.obstacles(), Ground(roughness=1.0, seed=1).obstacles())
-    assert not np.array_equal(same.obstacles(), other.obstacles())
-
-
-@pytest.mark.parametrize(
-    ("values", "message"),
-    [
-        ({"slope": 1.6}, "slope is 1.6"),
-        ({"slope": math.nan}, "slope is nan"),
-        ({"roughness": -0.1}, "roughness is -0.1"),
-        ({"roughness": 1.1}, "roughness is 1.1"),
-        ({"seed": -1}, "seed is -1"),
-        ({"density": 0.0}, "density is 0"),
-        ({"diameters": (0.02, 0.1)}, "diameters are 0.02"),
-        ({"diameters": (0.1, 0.05)}, "diameters are 0.1"),
-    ],
+GROUNDS = (
+    Plane(),
+    Plane(slope=0.2),
+    Ground(roughness=1.0, seed=4),
+    Kerb(at=0.1, height=0.006, length=0.05),
+    Waves(amplitude=0.004, wavelength=0.2),
 )
-def test_ground_out_of_range_is_refused(values: dict[str, object], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        Ground(**values)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("ground", GROUNDS, ids=repr)
+def test_the_compiled_touch_of_every_ground_is_the_one_in_python(ground: Surface) -> None:
+    forces = RobotForces(ROBOT, ground, np.zeros(12))
+    random = np.random.default_rng(0)
+    stiffness, radius = ROBOT.contact.stiffness, ROBOT.contact.foot_radius
+    touched = 0
+    for _ in range(200):
+        x, y = random.uniform(-0.3, 0.3, 2)
+        place = np.array([x, y, random.uniform(radius - 0.002, radius + ground.top + 0.001)])
+        found = ground.contacts(place, radius)
+        expected = ground.rotation() @ (stiffness * found[:, 3] @ found[:, :3])
+        world = ground.rotation() @ place
+        np.testing.assert_allclose(one_foot_at(forces, world), expected, atol=1e-6)
+        touched += len(found) > 0
+    assert touched > 20

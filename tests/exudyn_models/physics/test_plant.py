@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from apnc.loop.recording import PLANT_CHANNELS
+from exudyn_models.channels import PLANT_CHANNELS, PlantError
 from exudyn_models.physics.engine import exu
-from exudyn_models.physics.plant import Plant, PlantError, PlantOptions
-from exudyn_models.robot.file import ROBOTS, load_robot
-from exudyn_models.robot.model import RobotDescription
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.plant import Plant
+from exudyn_models.robot import ROBOTS, RobotDescription, load_robot
 
 TICK = 1 / 60
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
@@ -209,12 +209,12 @@ def test_a_fallen_robot_is_noticed() -> None:
 
 def test_six_legs_are_another_file(tmp_path: Path) -> None:
     text = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
-    middle = '[[legs]]\nname = "{}M"\nhip = [0.0, {}, 0.0]\n\n'
+    middle = '[[legs]]\nname = "{}M"\nmount = [0.0, {}, 0.0]\n\n'
     more = middle.format("R", -0.066) + middle.format("L", 0.066) + "[servo]"
     path = tmp_path / "hexapod.toml"
     path.write_text(text.replace("[servo]", more), encoding="utf-8")
     plant = stand(load_robot(str(path)))
-    assert plant.legs == ("RF", "RH", "LF", "LH", "RM", "LM")
+    assert plant.legs == ("RF", "RM", "RH", "LF", "LM", "LH")
     assert plant.mass == pytest.approx(3.1)
     assert plant.sample()["foot_force"][:, 2].sum() == pytest.approx(3.1 * 9.81, rel=1e-3)
 

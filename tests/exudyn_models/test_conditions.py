@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from exudyn_models.conditions import CONDITIONS, PAYLOAD, Conditions, named_conditions
-from exudyn_models.physics.plant import Plant, PlantOptions
-from exudyn_models.robot.file import load_robot
-from exudyn_models.robot.model import PAYLOAD_SIZE, Body, MassProperties
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.plant import Plant
+from exudyn_models.robot import PAYLOAD_SIZE, Body, MassProperties, load_robot
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
@@ -141,13 +141,50 @@ def test_conditions_of_the_paper_fit_the_robot() -> None:
     assert named_conditions("C1") == Conditions()
     for conditions in CONDITIONS.values():
         conditions.check_legs(("RF", "RH", "LF", "LH"))
-    with pytest.raises(ValueError, match="'C5' are not one of C1"):
+    with pytest.raises(ValueError, match=r"^conditions 'C5' are not one of C1, .*, S2, S3$"):
         named_conditions("C5")
 
 
 @pytest.mark.parametrize("name", CONDITIONS)
 def test_conditions_go_to_other_processes(name: str) -> None:
     assert pickle.loads(pickle.dumps(CONDITIONS[name])) == CONDITIONS[name]
+
+
+def test_no_feedback_means_every_leg_of_any_robot() -> None:
+    legs = ("RF", "RM", "RH", "LF", "LM", "LH")
+    assert named_conditions("S3").silent(legs) == legs
+    assert Conditions(dropout=("LM",)).silent(legs) == ("LM",)
+    assert Conditions().silent(legs) == ()
+    named_conditions("S3").check_legs(legs)
+    plant = Plant(load_robot("hexapod"), conditions=named_conditions("S3"))
+    for _ in range(30):
+        plant.advance(np.zeros(6), np.zeros(6), TICK)
+    np.testing.assert_array_equal(plant.grf(), 0.0)
+
+
+def test_the_paper_s_conditions_are_these() -> None:
+    assert dict(CONDITIONS) == {
+        "C1": Conditions(),
+        "C2": Conditions(grf_noise=0.2),
+        "C3": Conditions(damaged=("RF",)),
+        "C4": Conditions(payload=1.25),
+        "S1": Conditions(held_at=0.02),
+        "S2": Conditions(stuck={"RF": 0.9, "LF": 0.9}),
+        "S3": Conditions(dropout=("*",)),
+    }
+
+
+@pytest.mark.parametrize(
+    "conditions",
+    [Conditions(damaged=("XX",)), Conditions(stuck={"XX": 0.0}), Conditions(dropout=("XX", "*"))],
+)
+def test_a_leg_that_the_robot_lacks_is_named(conditions: Conditions) -> None:
+    with pytest.raises(ValueError, match=r"^leg 'XX' is not one of RF, RH, LF, LH$"):
+        conditions.check_legs(("RF", "RH", "LF", "LH"))
+
+
+def test_zero_is_allowed_everywhere() -> None:
+    Conditions(payload=0.0, grf_noise=0.0, stuck={"RF": 0.0}, held_at=0.0)
 
 
 def test_legs_go_by_name() -> None:
@@ -158,8 +195,10 @@ def test_legs_go_by_name() -> None:
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"payload": -1.0}, "payload is -1"),
+        ({"payload": -1.0}, r"^payload is -1.0; allowed: a finite number, 0 or more$"),
         ({"grf_noise": math.inf}, "grf_noise is inf"),
+        ({"grf_noise": -0.1}, "grf_noise is -0.1"),
+        ({"held_at": math.nan}, "held_at is nan"),
         ({"stuck": {"RF": math.nan}}, r"stuck\[RF\] is nan"),
         ({"held_at": -0.1}, "held_at is -0.1"),
     ],

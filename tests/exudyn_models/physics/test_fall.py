@@ -1,0 +1,159 @@
+"""When a robot counts as fallen: tilt against the ground, corners of the trunk in it."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exudyn_models.channels import PlantError
+from exudyn_models.ground import Kerb, Plane, Surface
+from exudyn_models.physics.forces import rotation_rpy
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.plant import Plant
+from exudyn_models.robot import Body, RobotDescription, load_robot
+
+TICK = 1 / 60
+ROBOT = load_robot("lilibot")
+ZERO = np.zeros(4)
+
+
+def posed(
+    roll: float, pitch: float, yaw: float, ground: Surface | None = None, height: float = 1.0
+) -> Plant:
+    """A robot in the air over the ground, in any attitude."""
+    plant = Plant(ROBOT, ground=ground)
+    plant._q[:3] = height * (ground or Plane()).rotation()[:, 2]
+    plant._q[3:6] = yaw, pitch, roll
+    return plant
+
+
+@pytest.mark.parametrize("yaw", [0.0, 1.0, -2.5])
+@pytest.mark.parametrize(
+    ("roll", "pitch", "fell"),
+    [
+        (0.0, 0.0, False),
+        (59.0, 0.0, False),
+        (61.0, 0.0, True),
+        (0.0, -59.0, False),
+        (0.0, -61.0, True),
+        (0.0, 90.0, True),
+        (180.0, 0.0, True),
+        # Euler angles of an upright robot: the same attitude written in another way
+        (180.0, 180.0, False),
+        # both at 50 degrees: the axis leans by acos(cos(50)^2) = 65.6 degrees
+        (50.0, 50.0, True),
+        (40.0, 40.0, False),
+    ],
+)
+def test_the_trunk_may_lean_by_sixty_degrees(
+    roll: float, pitch: float, yaw: float, fell: bool
+) -> None:
+    assert posed(math.radians(roll), math.radians(pitch), yaw).fell is fell
+
+
+def test_lean_counts_from_the_normal_of_the_ground() -> None:
+    slope = Plane(slope=math.radians(50.0))
+    assert not posed(0.0, -slope.slope, 0.0, slope).fell
+    assert not posed(0.0, math.radians(-50.0 + 55.0), 0.0, slope).fell
+    assert posed(0.0, math.radians(-50.0 + 65.0), 0.0, slope).fell
+
+
+def test_on_a_steep_slope_a_trunk_that_points_straight_up_has_fallen() -> None:
+    wall = Plane(slope=math.radians(70.0))
+    assert not posed(0.0, math.radians(-79.0), 0.0, wall).fell
+    assert posed(0.0, math.radians(-81.0), 0.0, wall).fell
+
+
+def test_a_corner_in_the_ground_is_a_fall() -> None:
+    corners = ROBOT.trunk.corners()
+    for roll, pitch, yaw in ((0.0, 0.0, 0.0), (0.3, -0.2, 1.0)):
+        depth = -(corners @ np.array(rotation_rpy(roll, pitch, yaw)).T)[:, 2].min()
+        assert not posed(roll, pitch, yaw, height=depth + 1e-6).fell
+        assert posed(roll, pitch, yaw, height=depth - 1e-6).fell
+
+
+def test_corners_touch_the_ground_where_it_is_high() -> None:
+    # Trunk from x = -0.13 to 0.13, its bottom 10 mm below the hips.
+    for at, fell in ((0.12, True), (0.14, False)):
+        assert posed(0.0, 0.0, 0.0, Kerb(at=at, height=0.1), height=0.1).fell is fell
+
+
+def scaled(robot: RobotDescription, size: float) -> RobotDescription:
+    """The robot with all lengths times ``size`` and all masses times its cube."""
+
+    def vector(v: tuple[float, float, float]) -> tuple[float, float, float]:
+        return (v[0] * size, v[1] * size, v[2] * size)
+
+    def body(b: Body) -> Body:
+        return Body(b.mass * size**3, vector(b.size), vector(b.com))
+
+    legs = tuple(
+        replace(
+            leg,
+            mount=vector(leg.mount),
+            hip_offset=vector(leg.hip_offset),
+            femur_length=leg.femur_length * size,
+            tibia_length=leg.tibia_length * size,
+            hip=body(leg.hip),
+            femur=body(leg.femur),
+            tibia=body(leg.tibia),
+        )
+        for leg in robot.legs
+    )
+    trunk = replace(robot.trunk, body=body(robot.trunk.body), center=vector(robot.trunk.center))
+    contact = replace(robot.contact, foot_radius=robot.contact.foot_radius * size)
+    return replace(robot, legs=legs, trunk=trunk, contact=contact)
+
+
+def test_a_robot_of_half_the_size_stands() -> None:
+    plant = Plant(scaled(ROBOT, 0.5))
+    for _ in range(60):
+        plant.advance(ZERO, ZERO, TICK)
+    assert plant.sample()["position"][2] < 0.08
+    assert not plant.fell
+
+
+def test_a_walk_down_a_slope_is_no_fall() -> None:
+    plant = Plant(ROBOT, ground=Plane(slope=math.radians(-8.0)))
+    diagonal = np.array([1.0, -1.0, -1.0, 1.0])
+    for tick in range(300):
+        phase = 0.12 * tick
+        hip = 0.13 * np.sin(phase) * diagonal - 0.111
+        knee = 0.08 * np.cos(phase) * diagonal - 0.039
+        plant.advance(hip, knee, TICK)
+        assert not plant.fell
+    x, _, z = plant.sample()["position"]
+    assert x > 0.3
+    assert z - 0.147 < -0.04
+
+
+@pytest.mark.parametrize("slope", [math.radians(70.0), math.radians(-70.0)])
+def test_a_robot_that_tips_over_falls_before_the_angles_break_down(slope: float) -> None:
+    # Rubber that hardly slides on a wall: the robot turns over its lower feet, at high speed.
+    grip = replace(ROBOT, contact=replace(ROBOT.contact, friction=5.0))
+    plant = Plant(grip, ground=Plane(slope=slope))
+    try:
+        for _ in range(120):
+            plant.advance(ZERO, ZERO, TICK)
+            if plant.fell:
+                break
+    except PlantError as error:
+        pytest.fail(f"{error} at pitch {plant._q[4]:.2f}")
+    assert plant.fell
+
+
+def test_a_robot_that_turns_over_its_back_is_seen_in_time() -> None:
+    # Pushed in the air without gravity: it pitches freely, at 6 rad/s.
+    plant = Plant(ROBOT, options=PlantOptions(clearance=2.0, gravity=0.0))
+    plant._mbs.systemData.SetODE2Coordinates_t(np.eye(18)[4] * 6.0)
+    seen = []
+    for _ in range(20):
+        plant.advance(ZERO, ZERO, TICK)
+        seen.append((abs(plant._q[4]), plant.fell))
+        if plant.fell:
+            break
+    angle, fell = seen[-1]
+    assert fell
+    assert math.radians(60.0) < angle < math.radians(85.0)
+    assert all(angle <= math.radians(60.0) for angle, _ in seen[:-1])

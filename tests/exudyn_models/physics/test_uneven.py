@@ -1,0 +1,58 @@
+"""The robot on grounds that are not flat: what carries it, and where its feet come to rest."""
+
+import numpy as np
+import pytest
+
+from exudyn_models.ground import Kerb, Surface, Waves
+from exudyn_models.physics.plant import Plant
+from exudyn_models.robot import load_robot
+
+TICK = 1 / 60
+ROBOT = load_robot("lilibot")
+
+
+def settled(ground: Surface) -> Plant:
+    plant = Plant(ROBOT, ground=ground)
+    for _ in range(120):
+        plant.advance(np.zeros(4), np.zeros(4), TICK)
+    return plant
+
+
+def test_front_feet_stand_on_a_kerb_and_hind_feet_below_it() -> None:
+    plant = settled(Kerb(at=0.0, height=0.006))
+    sample = plant.sample()
+    foot, force = sample["foot_position"], sample["foot_force"]
+    assert force[:, 2].sum() == pytest.approx(ROBOT.weight, rel=1e-3)
+    assert force[:, 2].min() > 1.0
+    step = np.array([0.006, 0.0, 0.006, 0.0])
+    sunk = step + ROBOT.contact.foot_radius - foot[:, 2]
+    np.testing.assert_allclose(sunk, force[:, 2] / ROBOT.contact.stiffness, rtol=0.01)
+    assert not plant.fell
+
+
+def test_on_waves_feet_stand_at_the_height_of_the_waves() -> None:
+    waves = Waves(amplitude=0.005, wavelength=0.3)
+    plant = settled(waves)
+    sample = plant.sample()
+    assert sample["foot_force"][:, 2].sum() == pytest.approx(ROBOT.weight, rel=5e-3)
+    for (x, y, z), force in zip(sample["foot_position"], sample["foot_force"], strict=True):
+        ((*normal, depth),) = waves.contacts((x, y, z), ROBOT.contact.foot_radius)
+        pressed = ROBOT.contact.stiffness * depth
+        assert force @ normal == pytest.approx(pressed, rel=0.05)
+    assert not plant.fell
+
+
+def test_a_walk_goes_over_a_kerb() -> None:
+    plant = Plant(ROBOT, ground=Kerb(at=0.14, height=0.004))
+    diagonal = np.array([1.0, -1.0, -1.0, 1.0])
+    for tick in range(480):
+        phase = 0.12 * tick
+        hip = 0.13 * np.sin(phase) * diagonal - 0.111
+        knee = 0.12 * np.cos(phase) * diagonal - 0.039
+        plant.advance(hip, knee, TICK)
+    for _ in range(60):
+        plant.advance(np.full(4, -0.111), np.full(4, -0.039), TICK)
+    foot = plant.sample()["foot_position"]
+    assert (foot[:, 0] > 0.16).all()
+    assert (foot[:, 2] > 0.004 + ROBOT.contact.foot_radius - 0.002).all()
+    assert not plant.fell
