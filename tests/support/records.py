@@ -31,6 +31,17 @@ FOOT_RADIUS, LIFT, HEIGHT = 0.012, 0.015, 0.148
 MASS, G = 2.5, 9.81
 
 
+def outputs(phase: Array) -> tuple[Array, Array]:
+    """Outputs o1, o2 of oscillators that run on a circle with the given phase [rad]."""
+    return np.cos(phase), -np.sin(phase)
+
+
+def steady(phases: Sequence[float], seconds: float = 10.0) -> tuple[Array, Array, Array]:
+    """Time, o1 and o2 of oscillators at 1.4 Hz with constant relative phases."""
+    t = np.arange(round(seconds * RATE)) / RATE
+    return t, *outputs(2 * np.pi * 1.4 * t[:, None] + np.array([0.0, *phases]))
+
+
 def synthetic_record(
     duration: float = 20.0,
     phases: Sequence[float] = TROT,
