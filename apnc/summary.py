@@ -4,165 +4,177 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
-from dataclasses import asdict, dataclass
-from importlib.metadata import PackageNotFoundError
-from importlib.metadata import version as installed_version
-from typing import Any
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from apnc import metrics
-from apnc.loop.recording import Record
+from apnc_core import __version__
+
+if TYPE_CHECKING:
+    from apnc.loop.record import Record
+
+LATE_S: Final = 10.0
+"""Last part of a run whose speed and phase error are given by themselves [s]: ten strides."""
 
 
 @dataclass(frozen=True)
 class Summary:
-    """Key figures of one run; ``None`` where a figure is undefined for this run.
+    """Key figures of one run; ``None`` where a figure is undefined for this run."""
 
-    Args:
-        method: controller that walked the robot.
-        mi: modulatory input MI [1] asked for.
-        seed: seed of everything random in the run.
-        duration_s: simulated time [s].
-        complete: False if the run was interrupted.
-        fell: trunk beyond 60 deg or on the ground.
-        converged: strict criterion; None if no target gait is known for this number of legs.
-        convergence_time_s: strict criterion, from the touch moment [s].
-        convergence_time_authors_s: the authors' first crossing, from the touch moment [s].
-        phi_target: relative phases of the target gait [rad].
-        phi_final: relative phases phi_12, phi_13, ... at the end [rad], in [-pi/2, 3pi/2).
-        speed_m_per_s: mean forward speed along the initial heading [m/s].
-        path_speed_m_per_s: mean speed along the smoothed path [m/s].
-        distance_m: displacement along the initial heading [m].
-        stride_frequency_hz: mean stride frequency [Hz].
-        duty_factor: mean duty factor per leg name [1].
-        balance: 1/std(roll) + 1/std(pitch) [1/rad].
-        coordination: 1 / largest spread of the duty factor [1].
-        cost_of_transport: energy per weight and distance [1].
-        real_time_factor: simulated time / wall time [1].
-        fmu_share_of_wall_time: share of the wall time spent in the controller [1].
-        version: version of this software.
-    """
-
-    method: str
-    mi: float
-    seed: int
-    duration_s: float
+    method: str  # controller that walked the robot
+    mi: float | tuple[tuple[float, float], ...]  # modulatory input MI asked for, or its steps
+    seed: int  # of everything random in the run
+    end: str  # complete, fell, diverged or interrupted
+    message: str  # what broke down
+    duration_s: float  # simulated time until the end
     complete: bool
     fell: bool
-    converged: bool | None
-    convergence_time_s: float | None
-    convergence_time_authors_s: float | None
-    phi_target: tuple[float, ...] | None
-    phi_final: tuple[float | None, ...]
-    speed_m_per_s: float | None
-    path_speed_m_per_s: float | None
-    distance_m: float | None
-    stride_frequency_hz: float | None
-    duty_factor: dict[str, float | None]
-    balance: float | None
-    coordination: float | None
-    cost_of_transport: float | None
-    real_time_factor: float | None
+    path_speed_m_per_s: float | None  # mean, along the smoothed path
+    turned_deg: float | None  # of the trunk to the left, over the whole run
+    speed_m_per_s: float | None  # mean, along the initial heading
+    distance_m: float | None  # net displacement along the initial heading
+    late_speed_m_per_s: float | None  # mean of the last 10 s, along the heading
+    converged: bool | None  # strict criterion; None without a target gait
+    convergence_time_s: float | None  # strict criterion, from the touch moment
+    convergence_time_authors_s: float | None  # their first crossing, from the touch moment
+    phi_target: tuple[float, ...] | None  # phi_12, phi_13, ... of the target gait [rad]
+    phi_final: tuple[float | None, ...]  # phi_12, phi_13, ... at the end, in [-pi/2, 3pi/2) [rad]
+    gait: str | None  # name of the gait within 0.6 rad of the final phases
+    largest_late_error_rad: float | None  # deviation from the target gait in the last 10 s
+    stored_at_s: float | None  # when kappa first rose above 0
+    stride_frequency_hz: float | None  # of the cycles of the oscillators
+    duty_factor: dict[str, float | None]  # mean share of stance in a stride, per leg
+    duty_factor_mean: float | None  # over the legs
+    touch_downs_per_stride: float | None  # mean over the legs; above 1 the feet scuff
+    foot_lift_mm: dict[str, float | None]  # in mid-swing above stance, per leg
+    slip_per_stride_mm: dict[str, float | None]  # way over the ground in stance, per leg
+    balance: float | None  # 1/std(roll) + 1/std(pitch) [1/rad]; larger is steadier
+    coordination: float | None  # 1 / largest spread of the share of stance; larger is more even
+    cost_of_transport: float | None  # energy per weight and distance
+    real_time_factor: float | None  # simulated time / wall time
     fmu_share_of_wall_time: float | None
-    version: str
+    version: str  # of this software
 
     def to_dict(self) -> dict[str, Any]:
         """Plain dictionary in which every figure is finite or ``None``."""
-        cleaned: dict[str, Any] = _finite(asdict(self))
-        return cleaned
+        return asdict(self)
 
     def to_json(self) -> str:
-        """Strict JSON text: what is undefined or not finite is ``null``."""
+        """Strict JSON text: what is undefined is ``null``."""
         return json.dumps(self.to_dict(), indent=2, allow_nan=False) + "\n"
 
 
-def summarise(record: Record, *, method: str, mi: float, seed: int) -> Summary:
-    """Key figures of a run.
+def summarise(record: Record) -> Summary:
+    """Key figures of a run that ended in whatever way, of any length including none.
 
-    Args:
-        record: the run, finished or interrupted, of any length including none.
-        method: controller that walked the robot.
-        mi: modulatory input asked for [1].
-        seed: seed of the run.
-
-    Duty factors, coordination and balance count from the touch moment, so that the robot's drop
-    to the ground at the start is no stride. Loads are those of the ground, not of the sensors.
+    Nothing is measured of a run that diverged or has a value that is not finite; a run that fell or
+    diverged has not converged. Strides, feet and balance count from the touch moment, so that the
+    drop to the ground at the start is no stride. Loads are those of the ground, not of the sensors.
     """
-    target = metrics.default_target(record.n_legs)
-    time, plant = record.time, record.plant
-    o1, o2 = record.controller["o1"], record.controller["o2"]
-    vertical = plant["foot_force"][..., 2]
-    roll, pitch, yaw = plant["rpy"].T
-    touch = metrics.touch_moment(vertical, record.mass * metrics.GRAVITY)
-    begin = touch or 0
-    standing = metrics.stance(vertical)[begin:]
-    duties = metrics.duty_factors(standing)
-    tick = _sample_time(record)
+    sound = _sound(record)
+    weight = record.mass * metrics.GRAVITY
+    touch = metrics.touch_moment(sound.plant["foot_force"][..., 2], weight)
+    figures = {
+        "method": record.experiment.method,
+        "mi": record.experiment.mi,
+        "seed": record.experiment.seed,
+        "end": str(record.end),
+        "message": record.message,
+        "duration_s": record.ended_at,
+        "complete": record.complete,
+        "fell": record.end == "fell",
+        "real_time_factor": _ratio(record.ended_at, record.wall_s),
+        "fmu_share_of_wall_time": _ratio(record.fmu_wall_s, record.wall_s),
+        "version": __version__,
+    }
+    return Summary(**_finite(figures | _motion(sound, touch or 0) | _formation(sound, touch)))
+
+
+def _motion(record: Record, begin: int) -> dict[str, Any]:
+    """Speed, strides, feet, balance and cost."""
+    time, plant, position = record.time, record.plant, record.plant["position"]
+    late, (roll, pitch, yaw) = time >= time[-1:] - LATE_S, plant["rpy"].T
+    standing = metrics.stance(plant["foot_force"][..., 2])[begin:]
+    starts = metrics.cycle_starts(record.controller["o1"][begin:], record.controller["o2"][begin:])
+    feet, duty = plant["foot_position"][begin:], metrics.duty_factors(standing, starts)
+    distance, path = metrics.forward_distance(position, yaw), metrics.path_length(position)
+    speed, turned = metrics.mean_speed(time, path), metrics.turned(yaw)
+    cost = metrics.cost_of_transport(time, plant["joint_work"], record.mass, path)
+
+    def by_leg(values: Sequence[float | None], unit: float = 1.0) -> dict[str, float | None]:
+        scaled = [None if value is None else unit * value for value in values]
+        return dict(zip(record.legs, scaled, strict=True))
+
+    return {
+        "path_speed_m_per_s": speed,
+        "turned_deg": None if turned is None else math.degrees(turned),
+        "speed_m_per_s": metrics.mean_speed(time, distance),
+        "distance_m": distance,
+        "late_speed_m_per_s": _mean(metrics.smoothed_speed(time, position, yaw)[late]),
+        "stride_frequency_hz": metrics.stride_frequency(starts, 1.0 / record.experiment.rate),
+        "duty_factor": by_leg(duty),
+        "duty_factor_mean": _mean(duty),
+        "touch_downs_per_stride": _mean(metrics.touch_downs_per_stride(standing, starts)),
+        "foot_lift_mm": by_leg(metrics.foot_lifts(feet, standing, starts), 1000.0),
+        "slip_per_stride_mm": by_leg(metrics.slips(feet, standing, starts), 1000.0),
+        "balance": metrics.balance(roll[begin:], pitch[begin:], speed),
+        "coordination": metrics.coordination(standing, starts, speed),
+        "cost_of_transport": cost,
+    }
+
+
+def _formation(record: Record, touch: int | None) -> dict[str, Any]:
+    """Convergence by both criteria, final phases and the moment of storing."""
+    time, o1, o2 = record.time, record.controller["o1"], record.controller["o2"]
+    target = metrics.default_target(len(record.legs))
+    late, broken = time >= time[-1:] - LATE_S, record.end in ("fell", "diverged")
+    known = target is not None and len(time) > 0
 
     def when(criterion: Callable[..., float | None]) -> float | None:
-        return None if target is None else criterion(time, o1, o2, touch, target)
+        return criterion(time, o1, o2, touch, target) if known and not broken else None
 
     strict = when(metrics.convergence_time)
-    return Summary(
-        method=method,
-        mi=mi,
-        seed=seed,
-        duration_s=_simulated(record),
-        complete=record.complete,
-        fell=metrics.fell(roll, pitch, plant["position"][:, 2]),
-        converged=None if target is None else strict is not None,
-        convergence_time_s=strict,
-        convergence_time_authors_s=when(metrics.convergence_time_authors),
-        phi_target=target,
-        phi_final=tuple(_or_none(p) for p in metrics.final_phases(o1, o2, tick)),
-        speed_m_per_s=metrics.forward_speed(time, plant["position"], yaw),
-        path_speed_m_per_s=metrics.path_speed(time, plant["position"]),
-        distance_m=metrics.forward_distance(plant["position"], yaw),
-        stride_frequency_hz=metrics.stride_frequency(standing, tick),
-        duty_factor=dict(zip(record.legs, duties or [None] * record.n_legs, strict=True)),
-        balance=metrics.balance(roll[begin:], pitch[begin:]),
-        coordination=metrics.coordination(standing),
-        cost_of_transport=metrics.cost_of_transport(
-            time,
-            plant["joint_work"],
-            record.mass,
-            metrics.path_length(plant["position"]),
-        ),
-        real_time_factor=_ratio(_simulated(record), record.wall_s),
-        fmu_share_of_wall_time=_ratio(record.fmu_wall_s, record.wall_s),
-        version=_version(),
-    )
+    final = metrics.final_phases(o1, o2, 1.0 / record.experiment.rate)
+    error = metrics.phase_error(o1, o2, target) if target else np.full(len(time), np.nan)
+    stored = time[record.controller["kappa"] > 0.0]
+    return {
+        "converged": False if broken else strict is not None if known else None,
+        "convergence_time_s": strict,
+        "convergence_time_authors_s": when(metrics.convergence_time_authors),
+        "phi_target": target,
+        "phi_final": tuple(final.tolist()),
+        "gait": metrics.nearest_gait(final, metrics.STRICT_TOLERANCE),
+        "largest_late_error_rad": float(error[late].max()) if len(error) else None,
+        "stored_at_s": float(stored[0]) if len(stored) else None,
+    }
 
 
-def _sample_time(record: Record) -> float:
-    return float(np.median(np.diff(record.time))) if len(record) > 1 else 0.0
+def _sound(record: Record) -> Record:
+    """The record, without samples if it diverged or holds a value that is not finite."""
+    channels = [*record.plant.values(), record.controller["o1"], record.controller["o2"]]
+    if record.end != "diverged" and all(np.isfinite(values).all() for values in channels):
+        return record
+    plant = {name: values[:0] for name, values in record.plant.items()}
+    controller = {name: values[:0] for name, values in record.controller.items()}
+    return replace(record, time=record.time[:0], plant=plant, controller=controller)
 
 
-def _simulated(record: Record) -> float:
-    # Every sample stands for one whole tick, the last one included.
-    return round(len(record) * _sample_time(record), 9)
+def _mean(values: Any) -> float | None:
+    known = [value for value in values if value is not None]
+    return float(np.mean(known)) if known else None
 
 
 def _ratio(value: float, by: float) -> float | None:
     return value / by if by > 0 else None
 
 
-def _or_none(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
-
-
 def _finite(value: Any) -> Any:
+    """The same value with ``None`` for every number that is not finite."""
     if isinstance(value, dict):
         return {key: _finite(entry) for key, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(entry) for entry in value]
+    if isinstance(value, tuple):
+        return tuple(_finite(entry) for entry in value)
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _version() -> str:
-    try:
-        return installed_version("apnc")
-    except PackageNotFoundError:
-        return "unknown"

@@ -1,77 +1,44 @@
 """Gait metrics: pure functions on arrays, so that every study and report means the same by a word.
 
-Conventions of the whole package: sample arrays have shape (T,) or (T, n_legs); time in seconds;
-an undefined value (no stride taken, robot not moving) is ``None``, never a made-up number.
+Arguments mean the same everywhere, for T samples and n legs in the FMU's order:
+``time`` [s] (T,); ``sample_time`` between two of them [s]; ``o1``, ``o2``: outputs of the neurons
+N1, N2 of every CPG (T, n); ``target``: relative phases phi_12 .. phi_1n of a gait [rad] (n - 1,);
+``touch``: index of the touch moment; ``standing``: stance of every foot (T, n); ``starts``: when
+the cycles of each oscillator begin [samples], n arrays; ``position``: trunk in the world frame [m]
+(T, 3); ``roll``, ``pitch``, ``yaw`` of the trunk [rad] (T,); ``speed`` along the path [m/s].
+An undefined value (no stride taken, robot not moving) is ``None``, never a made-up number.
 """
 
-from apnc.metrics.convergence import (
-    STRICT_TOLERANCE,
-    convergence_time,
-    convergence_time_authors,
-    default_target,
-    phase_error,
-    touch_moment,
-)
-from apnc.metrics.gait import (
-    coordination,
-    duty_factors,
-    stance,
-    stride_duty,
-    stride_frequency,
-    stride_starts,
-)
-from apnc.metrics.motion import (
-    GRAVITY,
-    balance,
-    cost_of_transport,
-    fell,
-    forward_distance,
-    forward_speed,
-    path_length,
-    path_speed,
-    smoothed_speed,
-)
-from apnc.metrics.phases import (
-    cpg_phase,
-    final_phases,
-    phase_difference_authors,
-    phase_from_peaks,
-    relative_phases,
-    relative_phasors,
-    wrap,
-    wrap_for_display,
-)
-from apnc.metrics.smoothing import smooth
-
-__all__ = [
-    "GRAVITY",
-    "STRICT_TOLERANCE",
-    "balance",
-    "convergence_time",
-    "convergence_time_authors",
-    "coordination",
-    "cost_of_transport",
-    "cpg_phase",
-    "default_target",
-    "duty_factors",
-    "fell",
-    "final_phases",
-    "forward_distance",
-    "forward_speed",
-    "path_length",
-    "path_speed",
-    "phase_difference_authors",
-    "phase_error",
-    "phase_from_peaks",
-    "relative_phases",
-    "relative_phasors",
-    "smooth",
-    "smoothed_speed",
-    "stance",
-    "stride_duty",
-    "stride_frequency",
-    "stride_starts",
-    "touch_moment",
-    "wrap",
-    "wrap_for_display",
-]
+from apnc.metrics.convergence import STRICT_TOLERANCE as STRICT_TOLERANCE
+from apnc.metrics.convergence import convergence_time as convergence_time
+from apnc.metrics.convergence import convergence_time_authors as convergence_time_authors
+from apnc.metrics.convergence import phase_error as phase_error
+from apnc.metrics.convergence import touch_moment as touch_moment
+from apnc.metrics.gaits import GAITS as GAITS
+from apnc.metrics.gaits import default_target as default_target
+from apnc.metrics.gaits import gait_name as gait_name
+from apnc.metrics.gaits import nearest_gait as nearest_gait
+from apnc.metrics.motion import MIN_SPEED as MIN_SPEED
+from apnc.metrics.motion import balance as balance
+from apnc.metrics.motion import cost_of_transport as cost_of_transport
+from apnc.metrics.motion import forward_distance as forward_distance
+from apnc.metrics.motion import mean_speed as mean_speed
+from apnc.metrics.motion import path_length as path_length
+from apnc.metrics.motion import smoothed_speed as smoothed_speed
+from apnc.metrics.motion import turned as turned
+from apnc.metrics.phases import cpg_phase as cpg_phase
+from apnc.metrics.phases import final_phases as final_phases
+from apnc.metrics.phases import phase_difference_authors as phase_difference_authors
+from apnc.metrics.phases import relative_phases as relative_phases
+from apnc.metrics.phases import wrap as wrap
+from apnc.metrics.phases import wrap_for_display as wrap_for_display
+from apnc.metrics.smoothing import smooth as smooth
+from apnc.metrics.strides import coordination as coordination
+from apnc.metrics.strides import cycle_starts as cycle_starts
+from apnc.metrics.strides import duty_factors as duty_factors
+from apnc.metrics.strides import foot_lifts as foot_lifts
+from apnc.metrics.strides import slips as slips
+from apnc.metrics.strides import stance as stance
+from apnc.metrics.strides import stride_frequency as stride_frequency
+from apnc.metrics.strides import touch_downs_per_stride as touch_downs_per_stride
+from exudyn_models.robot.model import GRAVITY as GRAVITY

@@ -1,135 +1,79 @@
-"""When did the gait form: the authors' first crossing, and a criterion that cannot be grazed."""
+"""When the gait formed: at the authors' first crossing, or at the start of lasting agreement."""
 
 from __future__ import annotations
 
 from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from apnc.metrics.phases import phase_difference_authors, relative_phases, wrap
-from apnc.metrics.smoothing import smooth
+from apnc.metrics.smoothing import Array, smooth
 
-Array = NDArray[np.float64]
-
-_TARGETS: Final[dict[int, tuple[float, ...]]] = {
-    4: (np.pi, np.pi, 0.0),
-    6: (np.pi, 0.0, np.pi, 0.0, np.pi),
-}
-AUTHORS_THRESHOLD: Final = 2.8
-STRICT_TOLERANCE: Final = 0.6
-STRICT_HOLD: Final = 1.0
+AUTHORS_THRESHOLD: Final = 2.8  # distance to the gait [rad], from the authors' evaluation code
+STRICT_TOLERANCE: Final = 0.6  # deviation of a phase [rad]: a tenth of a cycle
+STRICT_HOLD: Final = 1.0  # lasted at the end of the run [s]: about a stride at the lowest MI
 
 
-def default_target(n_legs: int) -> tuple[float, ...] | None:
-    """Relative phases [rad] of the gait expected of n legs, None if there is no usual one.
-
-    Four legs (RF, RH, LF, LH): the trot (pi, pi, 0) of the paper. Six legs (RF, RM, RH, LF, LM,
-    LH): the tripod (pi, 0, pi, 0, pi).
-    """
-    return _TARGETS.get(n_legs)
-
-
-def touch_moment(vertical_force: ArrayLike, weight: float) -> int | None:
+def touch_moment(vertical_force: Array, weight: float) -> int | None:
     """Index of the first sample with at least two feet above a fifth of the weight, else None.
 
     Args:
-        vertical_force: vertical ground force on every foot [N], shape (T, n).
-        weight: weight of the robot [N].
+        vertical_force: of the ground on every foot [N], shape (T, n).
+        weight: of the robot [N].
     """
-    loaded = np.asarray(vertical_force, dtype=np.float64) > weight / 5
-    both = np.flatnonzero(loaded.sum(axis=1) >= 2)
+    both = np.flatnonzero((vertical_force > weight / 5).sum(axis=1) >= 2)
     return int(both[0]) if len(both) else None
 
 
-def phase_error(o1: ArrayLike, o2: ArrayLike, target: ArrayLike) -> Array:
+def phase_error(o1: Array, o2: Array, target: ArrayLike) -> Array:
     """Largest deviation of the smoothed relative phases from a gait [rad], shape (T,).
-
-    Args:
-        o1: output of neuron N1 of every CPG, shape (T, n).
-        o2: output of neuron N2 of every CPG, shape (T, n).
-        target: relative phases phi_12 .. phi_1n of the gait [rad], shape (n - 1,).
 
     Raises:
         ValueError: the target does not have n - 1 entries.
     """
     phases = relative_phases(o1, o2)
-    wanted = _checked_target(target, phases.shape[1])
-    error: Array = np.abs(wrap(phases - wanted)).max(axis=1)
+    error: Array = np.abs(wrap(phases - _checked(target, phases))).max(axis=1)
     return error
 
 
 def convergence_time(
-    time: ArrayLike,
-    o1: ArrayLike,
-    o2: ArrayLike,
-    touch: int | None,
-    target: ArrayLike,
-    tolerance: float = STRICT_TOLERANCE,
-    hold: float = STRICT_HOLD,
+    time: Array, o1: Array, o2: Array, touch: int | None, target: ArrayLike
 ) -> float | None:
     """Time from the touch moment until every phase is at the gait for good [s], strict criterion.
 
-    Args:
-        time: sample times [s], shape (T,).
-        o1: output of neuron N1 of every CPG, shape (T, n).
-        o2: output of neuron N2 of every CPG, shape (T, n).
-        touch: index of the touch moment, None if the robot never stood.
-        target: relative phases of the gait [rad], shape (n - 1,).
-        tolerance: largest deviation allowed of any phase [rad].
-        hold: the phases must have been there at least this long when the run ends [s].
-
-    Returns:
-        None if the gait did not form or did not last to the end of the run.
-
-    Pitfall: one late excursion moves the time to after it; that is the point of the criterion.
+    None if the gait did not form, or has not lasted for a second when the run ends. Pitfall: a late
+    excursion beyond 0.6 rad moves the time to after it.
     """
-    t = np.asarray(time, dtype=np.float64)
-    if touch is None or len(t) == 0:
+    if touch is None:
         return None
     # Written so that a NaN (undefined phase) counts as outside.
-    outside = np.flatnonzero(~(phase_error(o1, o2, target) <= tolerance))
-    first = int(outside[-1]) + 1 if len(outside) else 0
-    start = max(first, touch)
-    if start >= len(t) or t[-1] - t[start] < hold:
+    outside = np.flatnonzero(~(phase_error(o1, o2, target) <= STRICT_TOLERANCE))
+    start = max(int(outside[-1]) + 1 if len(outside) else 0, touch)
+    if start >= len(time) or time[-1] - time[start] < STRICT_HOLD:
         return None
-    return float(t[start] - t[touch])
+    return float(time[start] - time[touch])
 
 
 def convergence_time_authors(
-    time: ArrayLike,
-    o1: ArrayLike,
-    o2: ArrayLike,
-    touch: int | None,
-    target: ArrayLike,
-    threshold: float = AUTHORS_THRESHOLD,
+    time: Array, o1: Array, o2: Array, touch: int | None, target: ArrayLike
 ) -> float | None:
     """Time from the touch moment to the first sight of the gait [s], the authors' criterion.
 
-    Args:
-        time: sample times [s], shape (T,).
-        o1: output of neuron N1 of every CPG, shape (T, n).
-        o2: output of neuron N2 of every CPG, shape (T, n).
-        touch: index of the touch moment, None if the robot never stood.
-        target: unsigned relative phases of the gait [rad], in [0, pi], shape (n - 1,).
-        threshold: Euclidean distance to the gait below which it counts as reached [rad].
-
-    The distance of the unsigned phases to (pi, pi, 0) is smoothed (Savitzky-Golay, 91 samples,
-    order 2); in phase it is 4.44 rad. Source: the authors' evaluation code.
-    Pitfall: 2.8 rad is loose and a first crossing need not last; compare ``convergence_time``.
+    The distance of the unsigned phases to (pi, pi, 0), smoothed, falls below 2.8 rad. In phase it
+    is 4.44 rad. Source: the authors' evaluation code. Pitfall: 2.8 rad is loose, and a first
+    crossing need not last; compare ``convergence_time``.
     """
-    t = np.asarray(time, dtype=np.float64)
-    if touch is None or len(t) == 0:
+    if touch is None:
         return None
     phases = phase_difference_authors(o1, o2)
-    wanted = _checked_target(target, phases.shape[1])
-    distance = smooth(np.linalg.norm(phases - wanted, axis=1))
-    below = np.flatnonzero(distance[touch:] < threshold)
-    return float(t[touch + int(below[0])] - t[touch]) if len(below) else None
+    distance = smooth(np.linalg.norm(phases - _checked(target, phases), axis=1))
+    below = np.flatnonzero(distance[touch:] < AUTHORS_THRESHOLD)
+    return float(time[touch + below[0]] - time[touch]) if len(below) else None
 
 
-def _checked_target(target: ArrayLike, n_phases: int) -> Array:
+def _checked(target: ArrayLike, phases: Array) -> Array:
     wanted = np.asarray(target, dtype=np.float64)
-    if wanted.shape != (n_phases,):
-        raise ValueError(f"target needs {n_phases} relative phases, got shape {wanted.shape}")
+    if wanted.shape != phases.shape[1:]:
+        raise ValueError(f"target {wanted.tolist()} does not have {phases.shape[1]} phases")
     return wanted

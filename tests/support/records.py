@@ -7,12 +7,19 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from apnc.loop.recording import Record
+try:
+    from apnc.loop.experiment import Experiment
+    from apnc.loop.record import End, Record
+except ModuleNotFoundError:
+    from record_stand_in import End, Experiment, Record
+
+from exudyn_models.robot.file import load_robot
 
 Array = NDArray[np.float64]
 
 QUADRUPED = ("RF", "RH", "LF", "LH")
 HEXAPOD = ("RF", "RM", "RH", "LF", "LM", "LH")
+OCTOPOD = ("RF", "RA", "RB", "RH", "LF", "LA", "LB", "LH")
 TROT = (np.pi, np.pi, 0.0)
 TRIPOD = (np.pi, 0.0, np.pi, 0.0, np.pi)
 
@@ -22,6 +29,17 @@ FEMUR_ANGLE, KNEE_ANGLE = np.deg2rad(-43.0), np.deg2rad(92.0)
 HIP_X, HIP_Y, HIP_Z = 0.092, 0.066, -0.03
 FOOT_RADIUS, LIFT, HEIGHT = 0.012, 0.015, 0.148
 MASS, G = 2.5, 9.81
+
+
+def outputs(phase: Array) -> tuple[Array, Array]:
+    """Outputs o1, o2 of oscillators that run on a circle with the given phase [rad]."""
+    return np.cos(phase), -np.sin(phase)
+
+
+def steady(phases: Sequence[float], seconds: float = 10.0) -> tuple[Array, Array, Array]:
+    """Time, o1 and o2 of oscillators at 1.4 Hz with constant relative phases."""
+    t = np.arange(round(seconds * RATE)) / RATE
+    return t, *outputs(2 * np.pi * 1.4 * t[:, None] + np.array([0.0, *phases]))
 
 
 def synthetic_record(
@@ -41,9 +59,12 @@ def synthetic_record(
     """Steady walk with the given relative phases, duty factor and speed.
 
     ``formation=(t0, t1)`` starts in phase and moves to ``phases`` between t0 and t1. No foot is
-    loaded before ``air_time``. Four legs, or six if five phases are given.
+    loaded before ``air_time``. Four legs; six if five phases are given, eight if seven.
     """
-    legs = HEXAPOD if len(phases) == 5 else QUADRUPED
+    legs = {5: HEXAPOD, 7: OCTOPOD}.get(len(phases), QUADRUPED)
+    experiment = Experiment(
+        robot="lilibot" if legs == QUADRUPED else "hexapod", duration=max(duration, 1 / RATE)
+    )
     n = len(legs)
     t = np.arange(round(duration * RATE)) / RATE
     lead = _lead(t, np.array([0.0, *phases]), formation)
@@ -99,7 +120,9 @@ def synthetic_record(
             "reset": np.zeros_like(t),
         },
         mass=MASS,
-        complete=complete,
+        experiment=experiment,
+        robot=load_robot(str(experiment.robot)),
+        end=End.complete if complete else End.interrupted,
         fmu_wall_s=0.05 * duration / 10,
         wall_s=duration / 10,
     )
@@ -134,7 +157,7 @@ def _loads(
 
 
 def _hips(legs: Sequence[str]) -> Array:
-    x = {"F": HIP_X, "M": 0.0, "H": -HIP_X}
+    x = {"F": HIP_X, "A": HIP_X / 3, "M": 0.0, "B": -HIP_X / 3, "H": -HIP_X}
     y = {"R": -HIP_Y, "L": HIP_Y}
     return np.array([[x[leg[1]], y[leg[0]], HIP_Z] for leg in legs])
 

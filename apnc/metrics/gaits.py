@@ -1,0 +1,59 @@
+"""Gaits by name: the relative phases that the legs of a robot have in each."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from apnc.metrics.phases import wrap
+
+_HALF_TURNS: Final[dict[int, dict[str, tuple[float, ...]]]] = {
+    4: {
+        "trot": (1, 1, 0),
+        "pace": (0, 1, 1),
+        "bound": (1, 0, 1),
+        "walk": (1 / 2, 1, 3 / 2),
+        "pronk": (0, 0, 0),
+    },
+    6: {
+        "tripod": (1, 0, 1, 0, 1),
+        "tetrapod": (2 / 3, 4 / 3, 4 / 3, 0, 2 / 3),
+        "wave": (1 / 3, 2 / 3, 1, 4 / 3, 5 / 3),
+    },
+    8: {"alternating tetrapod": (1, 0, 1, 1, 0, 1, 0)},
+}
+GAITS: Final = {
+    n: {name: tuple(np.pi * half for half in gait) for name, gait in gaits.items()}
+    for n, gaits in _HALF_TURNS.items()
+}
+"""Number of legs -> name -> phi_12 .. phi_1n [rad], positive where leg k is ahead of leg 1.
+
+Legs in the FMU's order: right from front to hind, then left (RF, RH, LF, LH). The first gait of
+each is the target: for four legs the trot of the paper. Sources: Alexander 1984 for four (walk:
+hind foot a quarter of a cycle ahead of the front foot of its side), Wilson 1966 for six (waves from
+hind to front), Spagna and Peattie 2012 for eight.
+"""
+
+
+def default_target(n_legs: int) -> tuple[float, ...] | None:
+    """Relative phases [rad] of the gait expected of ``n_legs`` legs, None if ``GAITS`` has none."""
+    return next(iter(GAITS.get(n_legs, {}).values()), None)
+
+
+def gait_name(n_legs: int) -> str:
+    """Name of the gait expected of ``n_legs`` legs, "gait" if ``GAITS`` has none."""
+    return next(iter(GAITS.get(n_legs, {})), "gait")
+
+
+def nearest_gait(phases: ArrayLike, tolerance: float) -> str | None:
+    """Name of the gait from which no relative phase (n - 1,) is farther than ``tolerance`` [rad].
+
+    The one with the smallest largest deviation; None if there is none or a phase is undefined.
+    """
+    measured = np.asarray(phases, dtype=np.float64)
+    known = GAITS.get(len(measured) + 1, {})
+    errors = {name: float(np.abs(wrap(measured - gait)).max()) for name, gait in known.items()}
+    nearest = min(errors, key=errors.__getitem__, default=None)
+    return nearest if nearest and errors[nearest] <= tolerance else None

@@ -1,0 +1,157 @@
+"""Stance, strides, and what is measured per stride: duty factor, coordination, feet.
+
+A stride of a leg is a cycle of its oscillator, from mid-swing to mid-swing. A foot that touches
+the ground twice in a cycle has made one stride: its contacts are merged into one share of stance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from apnc.metrics.motion import MIN_SPEED
+from apnc.metrics.phases import cpg_phase
+from apnc.metrics.smoothing import Array
+
+Bool = NDArray[np.bool_]
+
+MID_SWING: Final = 1.5 * np.pi
+"""Phase of the CPG at which o2 and with it the command to the knee peaks [rad]."""
+# The authors' tenth of the largest force; for the other two see docs/decisions.md.
+STANCE_SHARE: Final = 0.1
+PEAK_QUANTILE: Final = 0.99
+MIN_RUN: Final = 3
+# A spread this small is the rounding of identical strides.
+_NO_SPREAD: Final = 1e-9
+
+
+def stance(force: Array) -> Bool:
+    """Which feet stand, shape (T, n): vertical force (T, n) above a tenth of the largest of leg 1.
+
+    Threshold of the authors' evaluation code, but contacts and gaps below three samples are removed
+    as flicker, and the largest force is the 99 % quantile: one impact of leg 1 (three times the
+    weight for a sample) would hide the stance of all legs.
+    """
+    if force.size == 0:
+        return np.zeros(force.shape, dtype=np.bool_)
+    largest = max(float(np.quantile(force[:, 0], PEAK_QUANTILE)), 0.0)
+    standing = force > STANCE_SHARE * largest
+    # Gaps first: a contact cut in two by one lost sample must not be removed as two short ones.
+    filled = [_fill_short(column, False) for column in standing.T]
+    return np.stack([_fill_short(column, True) for column in filled], axis=1)
+
+
+def cycle_starts(o1: Array, o2: Array) -> list[Array]:
+    """When the cycles of every oscillator begin [samples, with fractions], one array per leg.
+
+    A cycle begins when the unwrapped phase first passes mid-swing, so k + 1 starts are k strides.
+    An oscillator that rests, or swings to and fro without going round, has no cycle.
+    """
+    phases = np.unwrap(cpg_phase(o1, o2), axis=0)
+    return [_passages(phase) for phase in np.maximum.accumulate(phases, axis=0).T]
+
+
+def stride_frequency(starts: Sequence[Array], sample_time: float) -> float | None:
+    """Stride frequency [Hz]: one over the median duration of a cycle, mean over the legs.
+
+    The median, so that the quicker cycles in which the gait forms do not count as the walk. A leg
+    without a stride does not count; None if there is no other.
+    """
+    periods = [sample_time * float(np.median(np.diff(s))) for s in starts if len(s) > 1]
+    return float(np.mean([1.0 / period for period in periods])) if periods else None
+
+
+def duty_factors(standing: Bool, starts: Sequence[Array]) -> list[float | None]:
+    """Duty factor per leg [1]: mean share of stance over its strides; None for a leg without one.
+
+    Pitfall: 1 for a leg whose oscillator runs but whose foot never leaves the ground.
+    """
+    return _means(_per_stride(standing, starts, np.mean))
+
+
+def touch_downs_per_stride(standing: Bool, starts: Sequence[Array]) -> list[float | None]:
+    """Mean number of touch-downs in a stride, per leg; None for a leg without a stride.
+
+    One is a clean step. More means that the foot scuffs the ground in swing, less that it drags.
+    """
+    down = np.zeros(standing.shape)
+    down[1:] = standing[1:] & ~standing[:-1]
+    return _means(_per_stride(down, starts, np.sum))
+
+
+def coordination(standing: Bool, starts: Sequence[Array], speed: float | None) -> float | None:
+    """Coordination of Fig. 7 [1]: 1 / largest standard deviation of the stance share of any leg.
+
+    None if a leg made fewer than two strides, if the strides do not vary at all, or if the robot
+    stands: feet that never lift vary least of all, which is no coordination.
+    """
+    shares = _per_stride(standing, starts, np.mean)
+    if speed is None or speed < MIN_SPEED or min(len(s) for s in shares) < 2:
+        return None
+    spread = max(float(s.std()) for s in shares)
+    return 1.0 / spread if spread > _NO_SPREAD else None
+
+
+def foot_lifts(foot_position: Array, standing: Bool, starts: Sequence[Array]) -> list[float | None]:
+    """Height of the foot in mid-swing above its mean height in stance [m], mean per leg or None.
+
+    ``foot_position``: centre of every foot in the world frame [m], shape (T, n, 3). The stance of a
+    stride is compared with the mid-swings before and after it, so that a slope cancels; a stride
+    without stance does not count. Pitfall: mid-swing is the oscillator's; the servos follow some
+    hundredths of a second later, and the foot may be highest at another moment.
+    """
+    lifts = []
+    for z, s, begin in zip(foot_position[..., 2].T, standing.T, starts, strict=True):
+        high = pairwise(np.interp(begin, np.arange(len(z)), z) if len(begin) else begin)
+        strides = zip(high, pairwise(np.ceil(begin).astype(int)), strict=True)
+        lift = [sum(ends) / 2 - z[a:b][s[a:b]].mean() for ends, (a, b) in strides if s[a:b].any()]
+        lifts.append(np.array(lift))
+    return _means(lifts)
+
+
+def slips(foot_position: Array, standing: Bool, starts: Sequence[Array]) -> list[float | None]:
+    """Horizontal way of the foot while it stands [m per stride], mean per leg or None.
+
+    Pitfall: the centre of a ball that rolls without slipping moves too, by its radius times the
+    angle the leg turns: about 4 mm for Lilibot.
+    """
+    steps = np.diff(foot_position[..., :2], axis=0)
+    way = np.zeros(standing.shape)
+    way[1:] = np.linalg.norm(steps, axis=2) * (standing[1:] & standing[:-1])
+    return _means(_per_stride(way, starts, np.sum))
+
+
+def _per_stride(
+    values: Array | Bool, starts: Sequence[Array], figure: Callable[[Any], float]
+) -> list[Array]:
+    """The figure of the values (T, n) in every stride, one array per leg."""
+    return [
+        np.array([figure(column[a:b]) for a, b in pairwise(np.ceil(s).astype(int))])
+        for column, s in zip(values.T, starts, strict=True)
+    ]
+
+
+def _means(figures: Sequence[Array]) -> list[float | None]:
+    return [float(values.mean()) if len(values) else None for values in figures]
+
+
+def _passages(phase: Array) -> Array:
+    """Samples at which a phase that never falls passes mid-swing."""
+    if len(phase) == 0:
+        return np.empty(0)
+    turns = (phase[[0, -1]] - MID_SWING) / (2 * np.pi)
+    passed = MID_SWING + 2 * np.pi * np.arange(np.ceil(turns[0]), np.floor(turns[1]) + 1)
+    return np.interp(passed, phase, np.arange(len(phase)))
+
+
+def _fill_short(signal: Bool, value: bool) -> Bool:
+    """Flip runs of ``value`` below three samples, but none cut off by an end."""
+    result = signal.copy()
+    for a, b in pairwise(np.flatnonzero(np.diff(signal)) + 1):
+        if signal[a] == value and b - a < MIN_RUN:
+            result[a:b] = not value
+    return result

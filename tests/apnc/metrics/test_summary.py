@@ -1,0 +1,340 @@
+"""The summary of made-up runs, figure by figure, for every way in which a run can end."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+import pytest
+from records import (
+    HEXAPOD,
+    MASS,
+    OCTOPOD,
+    QUADRUPED,
+    RATE,
+    TRIPOD,
+    TROT,
+    End,
+    Record,
+    outputs,
+    synthetic_record,
+)
+
+from apnc import metrics
+from apnc.summary import Summary, summarise
+from apnc_core import __version__
+
+PI = np.pi
+pytestmark = pytest.mark.filterwarnings("error")
+
+
+def with_channels(record: Record, **channels: np.ndarray) -> Record:
+    """The record with other channels, of the plant or the controller."""
+    plant = {name: channels.get(name, values) for name, values in record.plant.items()}
+    controller = {name: channels.get(name, values) for name, values in record.controller.items()}
+    return replace(record, plant=plant, controller=controller)
+
+
+def moving_on(record: Record, forward: np.ndarray, left: np.ndarray, yaw: np.ndarray) -> Record:
+    """The record with another path of the trunk."""
+    position, rpy = record.plant["position"].copy(), record.plant["rpy"].copy()
+    position[:, 0], position[:, 1], rpy[:, 2] = forward, left, yaw
+    return with_channels(record, position=position, rpy=rpy)
+
+
+def ended(record: Record, end: End, message: str = "") -> Record:
+    return replace(record, end=end, message=message)
+
+
+def figures(summary: Summary) -> dict[str, Any]:
+    """What was measured of the gait and the motion."""
+    asked = {"method", "mi", "seed", "end", "message", "duration_s", "complete", "fell", "version"}
+    asked |= {"phi_target", "real_time_factor", "fmu_share_of_wall_time", "converged"}
+    return {name: value for name, value in summary.to_dict().items() if name not in asked}
+
+
+def is_empty(value: Any) -> bool:
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, tuple) else ()
+    return all(part is None for part in parts) if parts else value is None
+
+
+def test_a_known_walk() -> None:
+    walk = synthetic_record(45.0, duty=0.6, speed=0.08, frequency=1.5, yaw=0.4)
+    experiment = replace(walk.experiment, mi=0.15, seed=3, method="tegotae")
+    s = summarise(replace(walk, experiment=experiment))
+    assert (s.method, s.mi, s.seed, s.version) == ("tegotae", 0.15, 3, __version__)
+    assert (s.end, s.message, s.complete, s.fell) == ("complete", "", True, False)
+    assert s.duration_s == 45.0
+    assert s.path_speed_m_per_s == pytest.approx(0.08)
+    assert s.speed_m_per_s == pytest.approx(0.08)
+    assert s.late_speed_m_per_s == pytest.approx(0.08)
+    assert s.turned_deg == pytest.approx(0.0)
+    assert s.distance_m == pytest.approx(0.08 * (45.0 - 1 / RATE))
+    assert s.stride_frequency_hz == pytest.approx(1.5)
+    assert tuple(s.duty_factor) == tuple(s.foot_lift_mm) == tuple(s.slip_per_stride_mm) == QUADRUPED
+    # A half-sine load is above a tenth of its peak for 1 - 2 asin(0.1) / pi of the contact.
+    contact = 0.6 * (1 - 2 * np.arcsin(0.1) / PI)
+    assert list(s.duty_factor.values()) == pytest.approx([contact] * 4, abs=0.03)
+    assert s.duty_factor_mean == pytest.approx(np.mean(list(s.duty_factor.values())))
+    assert s.touch_downs_per_stride == pytest.approx(1.0, abs=0.02)
+    assert list(s.foot_lift_mm.values()) == pytest.approx([15.0] * 4, abs=0.1)
+    assert list(s.slip_per_stride_mm.values()) == pytest.approx([0.0] * 4, abs=1e-6)
+    assert s.balance == pytest.approx(np.sqrt(2) * (50 + 100), rel=0.01)
+    assert s.converged is True and s.gait == "trot"
+    assert s.convergence_time_s == s.convergence_time_authors_s == 0.0
+    assert s.phi_target == TROT
+    assert s.phi_final == pytest.approx(TROT, abs=1e-6)
+    assert s.largest_late_error_rad == pytest.approx(0.0, abs=1e-6)
+    # d = 2 exp(-t / 4) falls below 0.4, where kappa is 1, at 4 ln 5.
+    assert s.stored_at_s == pytest.approx(4 * np.log(5), abs=1 / RATE)
+    assert s.real_time_factor == pytest.approx(10.0)
+    assert s.fmu_share_of_wall_time == pytest.approx(0.05)
+
+
+def test_every_figure_is_in_the_dictionary_and_in_json() -> None:
+    s = summarise(synthetic_record(5.0))
+    assert list(s.to_dict()) == [field.name for field in fields(Summary)]
+    loaded = json.loads(s.to_json())
+    assert list(loaded) == list(s.to_dict())
+    assert loaded["duty_factor"] == s.duty_factor and loaded["phi_final"] == list(s.phi_final)
+    assert s.to_json().startswith('{\n  "method"') and s.to_json().endswith("}\n")
+
+
+def test_the_path_is_the_headline() -> None:
+    names = [field.name for field in fields(Summary)]
+    order = ["path_speed_m_per_s", "turned_deg", "speed_m_per_s", "distance_m"]
+    assert names.index(order[0]) < names.index("speed_m_per_s")
+    assert [name for name in names if name in order] == order
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_curve(side: float) -> None:
+    walk = synthetic_record(20.0)
+    angle = 1.25 * 2 * PI * walk.time / walk.time[-1]
+    forward, left = 0.2 * np.sin(angle), side * 0.2 * (1 - np.cos(angle))
+    s = summarise(moving_on(walk, forward, left, metrics.wrap(side * angle)))
+    assert s.turned_deg == pytest.approx(side * 450.0)
+    way = 1.25 * 2 * PI * 0.2 / walk.time[-1]
+    assert s.path_speed_m_per_s == pytest.approx(way, rel=0.03)
+    assert s.distance_m == pytest.approx(0.2)
+    assert s.speed_m_per_s == pytest.approx(0.2 / walk.time[-1])
+    assert s.late_speed_m_per_s == pytest.approx(way, rel=0.03)
+
+
+def test_cost_of_transport() -> None:
+    walk = synthetic_record(20.0, speed=0.1)
+    power = np.arange(12).reshape(4, 3)  # 66 W in all
+    work = 7.0 + walk.time[:, None, None] * power
+    s = summarise(with_channels(walk, joint_work=work))
+    assert s.cost_of_transport == pytest.approx(66.0 / (MASS * 9.81 * 0.1))
+
+
+def test_late_figures_are_of_the_last_ten_seconds() -> None:
+    walk = synthetic_record(30.0, speed=0.1, formation=(2.0, 5.0))
+    late = np.maximum(walk.time - walk.time[-1] + 10.0, 0.0)
+    moved = moving_on(walk, 0.1 * walk.time + 0.05 * late, 0 * late, 0 * late)
+    s = summarise(moved)
+    assert s.late_speed_m_per_s == pytest.approx(0.15, abs=0.002)
+    assert s.largest_late_error_rad == pytest.approx(0.0, abs=1e-6)
+    assert summarise(synthetic_record(14.0, formation=(2.0, 5.0))).largest_late_error_rad == (
+        pytest.approx(PI - PI * (3.98 - 2.0) / 3, abs=0.05)
+    )
+
+
+def test_each_criterion_has_its_own_figure() -> None:
+    s = summarise(synthetic_record(20.0, formation=(2.0, 12.0)))
+    assert s.convergence_time_s == pytest.approx(2 + 10 * (PI - 0.6) / PI, abs=0.1)
+    assert s.convergence_time_authors_s == pytest.approx(
+        2 + 10 * (PI - 2.8 / np.sqrt(2)) / PI, abs=0.1
+    )
+    assert s.converged is True
+    # Distance to (pi, pi, 0) is 2.1 rad, below 2.8, although no pair of legs is in trot.
+    near = summarise(synthetic_record(20.0, (PI - 1.2, PI - 1.2, 1.2)))
+    assert near.convergence_time_authors_s == 0.0
+    assert (near.converged, near.convergence_time_s, near.gait) == (False, None, None)
+    assert near.largest_late_error_rad == pytest.approx(1.2)
+
+
+def test_times_count_from_the_touch_moment() -> None:
+    walk = synthetic_record(20.0, formation=(2.0, 12.0), air_time=4.0)
+    s, at_once = summarise(walk), summarise(synthetic_record(20.0, formation=(2.0, 12.0)))
+    late = walk.time[metrics.touch_moment(walk.plant["foot_force"][..., 2], MASS * 9.81) or 0]
+    assert late == pytest.approx(4.0, abs=0.4)
+    for name in ("convergence_time_s", "convergence_time_authors_s"):
+        assert getattr(s, name) == pytest.approx(getattr(at_once, name) - late, abs=1.5 / RATE)
+
+
+def test_what_is_before_the_touch_moment_counts_for_nothing_else() -> None:
+    clean, walk = (synthetic_record(20.0, air_time=air) for air in (0.0, 4.0))
+    flying = walk.time < 4.0
+    theta = 2 * PI * 5.0 * walk.time[:, None] + np.zeros(4)
+    o1, o2 = (
+        np.where(flying[:, None], a, walk.controller[n])
+        for n, a in zip(("o1", "o2"), outputs(theta), strict=True)
+    )
+    rpy, feet = walk.plant["rpy"].copy(), walk.plant["foot_position"].copy()
+    rpy[flying, :2] += 1.0
+    feet[flying] *= 50.0
+    falling = with_channels(walk, o1=o1, o2=o2, rpy=rpy, foot_position=feet)
+    s, without = summarise(falling), summarise(clean)
+    assert s.stride_frequency_hz == pytest.approx(without.stride_frequency_hz)
+    assert s.balance == pytest.approx(without.balance, rel=0.02)
+    for name in ("duty_factor", "foot_lift_mm", "slip_per_stride_mm"):
+        expected = list(getattr(without, name).values())
+        assert list(getattr(s, name).values()) == pytest.approx(expected, abs=0.05)
+    assert s.touch_downs_per_stride == pytest.approx(1.0, abs=0.05)
+
+
+def test_a_robot_that_never_touches_the_ground() -> None:
+    s = summarise(synthetic_record(5.0, air_time=9.0))
+    assert (s.converged, s.convergence_time_s, s.convergence_time_authors_s) == (False, None, None)
+    assert s.duty_factor_mean == 0.0 and s.foot_lift_mm == dict.fromkeys(QUADRUPED)
+
+
+def test_coordination_is_of_the_worst_leg() -> None:
+    walk = synthetic_record(31.0, frequency=1.0, duty=0.5)  # 30 whole strides
+    force = walk.plant["foot_force"].copy()
+    theta = 2 * PI * walk.time
+    # Every second cycle of RF, from mid-swing to mid-swing, has no stance.
+    cycle = np.floor((theta + PI / 2) / (2 * PI))
+    force[cycle % 2 == 1, 0, 2] = 0.0
+    force[:, 1:, 2] = force[:, 2:3, 2]
+    s = summarise(with_channels(walk, foot_force=force))
+    share = 2 * (s.duty_factor["RF"] or 0.0)
+    assert share == pytest.approx(0.5 * (1 - 2 * np.arcsin(0.1) / PI), abs=0.03)
+    assert s.coordination == pytest.approx(2 / share, rel=0.03)
+    assert s.touch_downs_per_stride == pytest.approx((0.5 + 3) / 4, abs=0.03)
+
+
+def test_figures_per_leg_belong_to_their_leg() -> None:
+    walk = synthetic_record(20.0)
+    n = np.arange(4)
+    feet, force = walk.plant["foot_position"].copy(), walk.plant["foot_force"].copy()
+    feet[..., 2] *= n
+    feet[..., 1] += 0.01 * n * walk.time[:, None]
+    force[::2, 3, 2] = 0.0
+    s = summarise(with_channels(walk, foot_position=feet, foot_force=force))
+    assert list(s.foot_lift_mm) == list(QUADRUPED)
+    assert list(s.foot_lift_mm.values())[:3] == pytest.approx([0.0, 15.0, 30.0], abs=0.2)
+    slip = list(s.slip_per_stride_mm.values())
+    assert slip[2] == pytest.approx(2 * (slip[1] or 0.0), rel=0.05) and (slip[1] or 0) > 3.0
+    assert slip[0] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_robot_that_stands_has_neither_balance_nor_coordination() -> None:
+    walk = synthetic_record(20.0, speed=0.0)
+    s = summarise(walk)
+    assert s.path_speed_m_per_s == pytest.approx(0.0, abs=1e-6)
+    assert (s.balance, s.coordination, s.cost_of_transport) == (None, None, None)
+    slow = summarise(synthetic_record(20.0, speed=0.0051))
+    assert slow.balance is not None and slow.cost_of_transport is not None
+
+
+@pytest.mark.parametrize(
+    ("legs", "target", "name"),
+    [
+        (HEXAPOD, TRIPOD, "tripod"),
+        (OCTOPOD, metrics.default_target(8), "alternating tetrapod"),
+    ],
+)
+def test_other_numbers_of_legs(legs: tuple[str, ...], target: tuple[float, ...], name: str) -> None:
+    s = summarise(synthetic_record(10.0, target))
+    assert s.converged and s.gait == name and s.phi_target == target
+    assert tuple(s.duty_factor) == legs and len(s.phi_final) == len(legs) - 1
+    wrong = summarise(synthetic_record(10.0, (0.0,) * len(target)))
+    assert wrong.converged is False and wrong.gait is None
+
+
+def test_legs_without_a_known_gait() -> None:
+    walk = synthetic_record(10.0)
+    plant = {
+        k: v[:, :3] if k.startswith(("foot", "joint", "grf")) else v for k, v in walk.plant.items()
+    }
+    controller = {
+        k: v[:, :3] if v.ndim > 1 and v.shape[1] == 4 else v for k, v in walk.controller.items()
+    }
+    s = summarise(replace(walk, legs=("RF", "RH", "L"), plant=plant, controller=controller))
+    assert (s.converged, s.phi_target, s.gait) == (None, None, None)
+    assert (s.convergence_time_s, s.convergence_time_authors_s) == (None, None)
+    assert s.largest_late_error_rad is None
+    assert s.phi_final == pytest.approx(TROT[:2]) and tuple(s.duty_factor) == ("RF", "RH", "L")
+
+
+def test_a_fall_is_no_convergence_but_a_walk_until_then() -> None:
+    s = summarise(ended(synthetic_record(12.5), End.fell, "at 12.50 s"))
+    assert (s.end, s.fell, s.complete, s.message) == ("fell", True, False, "at 12.50 s")
+    assert (s.converged, s.convergence_time_s, s.convergence_time_authors_s) == (False, None, None)
+    assert s.duration_s == 12.5
+    assert s.path_speed_m_per_s == pytest.approx(0.08)
+    assert s.stride_frequency_hz == pytest.approx(1.4)
+
+
+def test_nothing_is_measured_of_a_diverged_run() -> None:
+    walk = synthetic_record(12.5)
+    thrown = with_channels(walk, position=1e45 * walk.plant["position"])
+    s = summarise(ended(thrown, End.diverged, "velocity beyond 100 m/s"))
+    assert (s.end, s.fell, s.complete) == ("diverged", False, False)
+    assert (s.message, s.duration_s, s.converged) == ("velocity beyond 100 m/s", 12.5, False)
+    assert {name for name, value in figures(s).items() if not is_empty(value)} == set()
+    assert s.duty_factor == dict.fromkeys(QUADRUPED) and s.phi_final == (None,) * 3
+    assert s.real_time_factor == pytest.approx(10.0) and s.phi_target == TROT
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+@pytest.mark.parametrize("channel", ["position", "foot_force", "joint_work", "o1", "o2"])
+def test_nothing_is_measured_of_values_that_are_not_finite(channel: str, value: float) -> None:
+    walk = synthetic_record(5.0)
+    broken = {**walk.plant, **walk.controller}[channel].copy()
+    broken.flat[100] = value
+    s = summarise(with_channels(walk, **{channel: broken}))
+    assert {name for name, entry in figures(s).items() if not is_empty(entry)} == set()
+
+
+def test_no_figure_is_infinite() -> None:
+    walk = synthetic_record(5.0)
+    thrown = with_channels(walk, position=1e200 * walk.plant["position"])
+    with np.errstate(all="ignore"):
+        s = summarise(thrown)
+    assert s.path_speed_m_per_s is None
+    json.loads(s.to_json(), parse_constant=pytest.fail)
+
+
+@pytest.mark.parametrize("samples", [0, 1, 2, 10, 100])
+def test_an_interrupted_run_of_any_length(samples: int) -> None:
+    s = summarise(synthetic_record(samples / RATE, complete=False, speed=0.0))
+    loaded = json.loads(s.to_json(), parse_constant=pytest.fail)
+    assert (loaded["end"], loaded["complete"], loaded["fell"]) == ("interrupted", False, False)
+    assert loaded["duration_s"] == pytest.approx(samples / RATE)
+    assert loaded["cost_of_transport"] is None
+    assert loaded["converged"] is (None if samples == 0 else samples == 100)
+
+
+def test_zero_ticks_have_no_figures() -> None:
+    s = summarise(replace(synthetic_record(0.0, complete=False), wall_s=0.0))
+    assert {name for name, value in figures(s).items() if not is_empty(value)} == set()
+    assert (s.duration_s, s.converged, s.phi_target) == (0.0, None, TROT)
+    assert (s.real_time_factor, s.fmu_share_of_wall_time) == (None, None)
+
+
+def test_durations_are_round() -> None:
+    assert summarise(synthetic_record(600.0)).duration_s == 600.0
+
+
+def test_rate_of_the_experiment_is_that_of_the_samples() -> None:
+    walk = synthetic_record(10.0, formation=(0.0, 12.0))
+    slower = replace(walk, time=2 * walk.time, experiment=replace(walk.experiment, rate=RATE / 2))
+    s = summarise(slower)
+    # Two of four legs gain half a turn in 24 s.
+    assert s.stride_frequency_hz == pytest.approx(0.7 + 0.5 / 48)
+    # The mean over the last second is that of the last 30 samples.
+    assert s.phi_final[0] == pytest.approx(PI * 9.75 / 12, abs=0.01)
+    assert s.phi_final[2] == pytest.approx(0.0)
+
+
+def test_steps_of_a_command_are_kept() -> None:
+    walk = synthetic_record(5.0)
+    steps = ((0.0, 0.08), (2.0, 0.15))
+    s = summarise(replace(walk, experiment=replace(walk.experiment, mi=steps)))
+    assert s.mi == steps
