@@ -141,9 +141,7 @@ def test_conditions_of_the_paper_fit_the_robot() -> None:
     assert named_conditions("C1") == Conditions()
     for conditions in CONDITIONS.values():
         conditions.check_legs(("RF", "RH", "LF", "LH"))
-    with pytest.raises(
-        ValueError, match=r"^conditions 'C5' are not one of C1, .*, S2, S3$"
-    ):
+    with pytest.raises(ValueError, match=r"^conditions 'C5' are not one of C1, .*, S2, S3$"):
         named_conditions("C5")
 
 
