@@ -208,7 +208,7 @@ class Sensor(Checked):
     component: Annotated[str, Rule(words=("normal", "norm"))] = "normal"
 
 
-_OF_THE_RUN: Final = ("Ts", "robot_weight", "phi_stored", "stored")
+_OF_THE_RUN: Final = ("Ts", "robot_weight", "method", "stored", "phi_stored")
 """Parameters of the controller that a run sets, not its robot."""
 
 
