@@ -118,7 +118,7 @@ class Surface(ABC):
         return self._found(x, y, z, radius, self.numbers(radius))
 
     def _found(self, x: float, y: float, z: float, radius: float, numbers: Numbers) -> Array:
-        found = np.zeros(4 * numbers.contacts)
+        found = np.full(4 * numbers.contacts, np.nan)
         count = self.touch(x, y, z, radius, numbers.reals, numbers.integers, found)
         return found.reshape(-1, 4)[:count]
 

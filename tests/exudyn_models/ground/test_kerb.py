@@ -69,12 +69,12 @@ def test_elevation_goes_up_and_down_again() -> None:
 
 
 def test_lines_over_a_sill_have_square_corners() -> None:
-    line = SILL.lines(0.4, 0.7, 0.0, 0.05)[0]
-    np.testing.assert_array_equal(line[:, 1], 0.0)
+    line = SILL.lines(0.4, 0.7, 0.1, 0.15)[0]
+    np.testing.assert_array_equal(line[:, 1], 0.1)
     assert (np.diff(line[:, 0]) >= 0.0).all()
     corners = line[np.isin(line[:, 0], [SILL.at, SILL.end])]
-    assert [0.5, 0.0, 0.0] in corners.tolist()
-    assert [0.5, 0.0, H] in corners.tolist()
+    assert [0.5, 0.1, 0.0] in corners.tolist()
+    assert [0.5, 0.1, H] in corners.tolist()
     # Flat pieces and faces only: no line cuts a corner.
     step = np.diff(line, axis=0)
     assert (np.minimum(np.abs(step[:, 0]), np.abs(step[:, 2])) == 0.0).all()
