@@ -27,6 +27,8 @@ def test_phase_error_is_the_largest() -> None:
     assert metrics.phase_error(o1, o2, TROT) == pytest.approx(0.3)
     _, o1, o2 = steady((PI + 0.1, PI, -0.5))
     assert metrics.phase_error(o1, o2, TROT) == pytest.approx(0.5)
+    walk = (PI / 2, PI, -PI / 2)
+    assert metrics.phase_error(*steady(walk)[1:], walk) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_trot_from_the_start_converges_at_once() -> None:
@@ -74,6 +76,16 @@ def test_convergence_times_of_a_ramp() -> None:
         assert found == pytest.approx(strict - touch / RATE, abs=0.05)
         found = metrics.convergence_time_authors(r.time, o1, o2, touch, TROT)
         assert found == pytest.approx(authors - touch / RATE, abs=0.05)
+
+
+def test_the_strict_time_is_that_of_the_first_sample_inside() -> None:
+    r = synthetic_record(20.0, formation=(2.0, 12.0))
+    o1, o2 = r.controller["o1"], r.controller["o2"]
+    found = metrics.convergence_time(r.time, o1, o2, 0, TROT)
+    assert found is not None
+    first = round(found * RATE)
+    error = metrics.phase_error(o1, o2, TROT)
+    assert error[first - 1] > 0.6 >= error[first]
 
 
 def test_a_gait_that_was_there_before_the_touch_counts_from_it() -> None:

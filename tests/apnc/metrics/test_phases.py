@@ -98,7 +98,7 @@ def test_final_phases_are_of_the_last_second() -> None:
     o1, o2 = outputs(np.array([0 * t, 0.1 * t]).T)
     assert metrics.final_phases(o1, o2, 1 / RATE) == pytest.approx([0.95], abs=0.001)
     # One sample for a tick longer than that.
-    assert metrics.final_phases(o1, o2, 5.0) == pytest.approx([0.1 * t[-1]], abs=0.001)
+    assert metrics.final_phases(o1, o2, 5.0) == pytest.approx([0.1 * t[-1]], abs=0.0005)
 
 
 def test_phase_of_a_resting_cpg_is_undefined() -> None:
