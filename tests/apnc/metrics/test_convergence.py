@@ -61,6 +61,14 @@ def test_threshold_of_the_authors_criterion(apart: float, formed: float | None) 
     assert metrics.convergence_time_authors(t, o1, o2, 0, TROT) == formed
 
 
+def test_a_dip_within_a_cycle_does_not_meet_the_authors_criterion() -> None:
+    t = np.arange(600) / RATE
+    # 2.9 rad apart in the mean, 2.7 to 3.1 rad within a fifth of a second.
+    lead = np.stack([0 * t, 0 * t + PI, 0 * t + PI, 2.9 + 0.2 * np.sin(2 * PI * 5 * t)], axis=1)
+    o1, o2 = outputs(10 * t[:, None] + lead)
+    assert metrics.convergence_time_authors(t, o1, o2, 0, TROT) is None
+
+
 def test_in_phase_does_not_meet_the_authors_criterion() -> None:
     t, o1, o2 = steady((0.0, 0.0, 0.0))
     assert metrics.convergence_time_authors(t, o1, o2, 0, TROT) is None
