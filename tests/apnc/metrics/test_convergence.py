@@ -27,6 +27,8 @@ def test_phase_error_is_the_largest() -> None:
     assert metrics.phase_error(o1, o2, TROT) == pytest.approx(0.3)
     _, o1, o2 = steady((PI + 0.1, PI, -0.5))
     assert metrics.phase_error(o1, o2, TROT) == pytest.approx(0.5)
+    walk = (PI / 2, PI, -PI / 2)
+    assert metrics.phase_error(*steady(walk)[1:], walk) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_trot_from_the_start_converges_at_once() -> None:
@@ -59,6 +61,14 @@ def test_threshold_of_the_authors_criterion(apart: float, formed: float | None) 
     assert metrics.convergence_time_authors(t, o1, o2, 0, TROT) == formed
 
 
+def test_a_dip_within_a_cycle_does_not_meet_the_authors_criterion() -> None:
+    t = np.arange(600) / RATE
+    # 2.9 rad apart in the mean, 2.7 to 3.1 rad within a fifth of a second.
+    lead = np.stack([0 * t, 0 * t + PI, 0 * t + PI, 2.9 + 0.2 * np.sin(2 * PI * 5 * t)], axis=1)
+    o1, o2 = outputs(10 * t[:, None] + lead)
+    assert metrics.convergence_time_authors(t, o1, o2, 0, TROT) is None
+
+
 def test_in_phase_does_not_meet_the_authors_criterion() -> None:
     t, o1, o2 = steady((0.0, 0.0, 0.0))
     assert metrics.convergence_time_authors(t, o1, o2, 0, TROT) is None
@@ -74,6 +84,16 @@ def test_convergence_times_of_a_ramp() -> None:
         assert found == pytest.approx(strict - touch / RATE, abs=0.05)
         found = metrics.convergence_time_authors(r.time, o1, o2, touch, TROT)
         assert found == pytest.approx(authors - touch / RATE, abs=0.05)
+
+
+def test_the_strict_time_is_that_of_the_first_sample_inside() -> None:
+    r = synthetic_record(20.0, formation=(2.0, 12.0))
+    o1, o2 = r.controller["o1"], r.controller["o2"]
+    found = metrics.convergence_time(r.time, o1, o2, 0, TROT)
+    assert found is not None
+    first = round(found * RATE)
+    error = metrics.phase_error(o1, o2, TROT)
+    assert error[first - 1] > 0.6 >= error[first]
 
 
 def test_a_gait_that_was_there_before_the_touch_counts_from_it() -> None:

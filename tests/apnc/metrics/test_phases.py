@@ -97,8 +97,12 @@ def test_final_phases_are_of_the_last_second() -> None:
     # The lead grows by 0.1 rad per second, so its mean over the last second is that at 9.5 s.
     o1, o2 = outputs(np.array([0 * t, 0.1 * t]).T)
     assert metrics.final_phases(o1, o2, 1 / RATE) == pytest.approx([0.95], abs=0.001)
+    # From 0.3 rad before pi to 0.3 rad behind it: a mean of wrapped angles would be near 0.
+    o1, o2 = outputs(np.array([0 * t, PI + 0.6 * (t - 9.5)]).T)
+    assert metrics.final_phases(o1, o2, 1 / RATE) == pytest.approx([PI], abs=0.01)
     # One sample for a tick longer than that.
-    assert metrics.final_phases(o1, o2, 5.0) == pytest.approx([0.1 * t[-1]], abs=0.001)
+    o1, o2 = outputs(np.array([0 * t, 0.1 * t]).T)
+    assert metrics.final_phases(o1, o2, 5.0) == pytest.approx([0.1 * t[-1]], abs=0.0005)
 
 
 def test_phase_of_a_resting_cpg_is_undefined() -> None:

@@ -192,6 +192,7 @@ def test_one_impact_does_not_hide_the_stance() -> None:
     force = np.where(contacts((8, 32)), 10.0, 0.0)[:, None]
     force[200] = 500.0
     assert (metrics.stance(force)[:, 0] == contacts((8, 32))).all()
+    assert (metrics.stance(1e-3 * force) == metrics.stance(force)).all()
 
 
 @pytest.mark.parametrize(("samples", "flicker"), [(1, True), (2, True), (3, False)])

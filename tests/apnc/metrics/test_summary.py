@@ -91,6 +91,7 @@ def test_a_known_walk() -> None:
     assert s.stored_at_s == pytest.approx(4 * np.log(5), abs=1 / RATE)
     assert s.real_time_factor == pytest.approx(10.0)
     assert s.fmu_share_of_wall_time == pytest.approx(0.05)
+    assert summarise(replace(walk, wall_s=0.5)).real_time_factor == pytest.approx(90.0)
 
 
 def test_every_figure_is_in_the_dictionary_and_in_json() -> None:
@@ -141,6 +142,18 @@ def test_late_figures_are_of_the_last_ten_seconds() -> None:
     assert summarise(synthetic_record(14.0, formation=(2.0, 5.0))).largest_late_error_rad == (
         pytest.approx(PI - PI * (3.98 - 2.0) / 3, abs=0.05)
     )
+
+
+def test_the_last_ten_seconds_begin_with_a_sample() -> None:
+    walk = synthetic_record(2.0, formation=(0.0, 3.0))  # 120 samples, taken as those of 30 s
+    t = np.arange(120) / 4
+    slow = replace(walk, time=t, experiment=replace(walk.experiment, rate=4.0))
+    s = summarise(moving_on(slow, 0.005 * t**2, 0 * t, 0 * t))
+    late = t[-41:]
+    # The speed is 0.01 t, but a difference to one side at the last sample.
+    assert s.late_speed_m_per_s == pytest.approx(0.01 * (late.mean() - 0.125 / 41))
+    # The lead grows by pi / 180 from sample to sample.
+    assert s.largest_late_error_rad == pytest.approx(PI * (1 - late[0] / 45), abs=PI / 360)
 
 
 def test_each_criterion_has_its_own_figure() -> None:
@@ -215,12 +228,20 @@ def test_figures_per_leg_belong_to_their_leg() -> None:
     feet[..., 2] *= n
     feet[..., 1] += 0.01 * n * walk.time[:, None]
     force[::2, 3, 2] = 0.0
-    s = summarise(with_channels(walk, foot_position=feet, foot_force=force))
+    varied = with_channels(walk, foot_position=feet, foot_force=force)
+    s = summarise(varied)
     assert list(s.foot_lift_mm) == list(QUADRUPED)
     assert list(s.foot_lift_mm.values())[:3] == pytest.approx([0.0, 15.0, 30.0], abs=0.2)
     slip = list(s.slip_per_stride_mm.values())
     assert slip[2] == pytest.approx(2 * (slip[1] or 0.0), rel=0.05) and (slip[1] or 0) > 3.0
     assert slip[0] == pytest.approx(0.0, abs=1e-6)
+    begin = metrics.touch_moment(force[..., 2], MASS * 9.81) or 0
+    starts = metrics.cycle_starts(*(varied.controller[name][begin:] for name in ("o1", "o2")))
+    measured = feet[begin:], metrics.stance(force[..., 2])[begin:], starts
+    assert slip == pytest.approx([1000 * (value or 0.0) for value in metrics.slips(*measured)])
+    assert list(s.foot_lift_mm.values()) == pytest.approx(
+        [1000 * (value or 0.0) for value in metrics.foot_lifts(*measured)]
+    )
 
 
 def test_a_robot_that_stands_has_neither_balance_nor_coordination() -> None:
