@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
-from parity import compare
+from hypothesis import Phase, find, given, settings
+from hypothesis import strategies as st
+from parity import compare, random_inputs, settings_of
 
-from apnc_core.enumerations import CouplingSign, KappaRule, Method, PhaseMeasure
+from apnc_core.controller import Controller
+from apnc_core.enumerations import Method, PhaseMeasure
+from apnc_core.interface import Inputs, Parameters
+from apnc_core.schema import Causality
+from apnc_core.variables import rows
 from build_fmu import sources
 from build_fmu.build import fmu_bytes
 from build_fmu.options import BuildOptions, host_platform
@@ -18,31 +25,71 @@ TOLERANCE = 1e-9
 COUPLED = {"kappa_hold": 10, "sigma": 1.0}
 PEAKS = {"phase_measure": PhaseMeasure.peak, **COUPLED}
 
-CASES: dict[str, dict[str, object]] = {
-    "apnc": COUPLED,
-    "apc": {"method": Method.apc},
-    "tegotae": {"method": Method.tegotae},
-    "phase_reset": {"method": Method.phase_reset},
-    "peak measure": PEAKS,
-    "printed kappa rule": {"kappa_rule": KappaRule.printed},
-    "live phases": {"phi_frozen": False, **COUPLED},
-    "printed sign": {"coupling_sign": CouplingSign.printed, **COUPLED},
-    "MI = 0 runs on": {"MI_zero_resets": False},
-    "bias": {"bias": 0.01},
-}
+# without shrinking, which takes a minute; the long form does it
+FEW = settings(
+    max_examples=30, deadline=None, derandomize=True, database=None, phases=(Phase.generate,)
+)
+LEGS, SEEDS = st.sampled_from((4, 6)), st.integers(0, 2**32 - 1)
+TICKS = 300
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("n_legs", [4, 6])
-def test_fmu_equals_reference(case: str, n_legs: int, fmu4: Path, fmu6: Path) -> None:
-    result = compare(fmu4 if n_legs == 4 else fmu6, CASES[case], n_legs, ticks=10_000)
+def check(path: Path, n_legs: int, changes: dict[str, object], seed: int) -> None:
+    result = compare(path, changes, n_legs, TICKS, seed)
     assert result.worst <= TOLERANCE, result.difference
 
 
+@pytest.fixture(scope="session")
+def paths(fmu4: Path, fmu6: Path) -> dict[int, Path]:
+    return {4: fmu4, 6: fmu6}
+
+
+@FEW
+@given(n_legs=LEGS, data=st.data(), seed=SEEDS)
+def test_fmu_equals_reference_for_any_parameters(
+    paths: dict[int, Path], n_legs: int, data: st.DataObject, seed: int
+) -> None:
+    check(paths[n_legs], n_legs, data.draw(settings_of(n_legs)), seed)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000, deadline=None)
+@given(n_legs=LEGS, data=st.data(), seed=SEEDS)
+def test_fmu_equals_reference_for_many_parameters(
+    paths: dict[int, Path], n_legs: int, data: st.DataObject, seed: int
+) -> None:
+    check(paths[n_legs], n_legs, data.draw(settings_of(n_legs)), seed)
+
+
+def commands(changes: dict[str, object], inputs: list[Inputs]) -> np.ndarray:
+    """Outputs of the reference over a drawn run, shape (ticks, values)."""
+    reference = Controller(Parameters(**changes), 4)  # type: ignore[arg-type]  # typed per name
+    return np.array([
+        np.concatenate([out.theta_hip, out.theta_knee, out.gamma, out.phi, [out.d, out.kappa]])
+        for out in map(reference.tick, inputs)
+    ])  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "name",
+    [v.name for v in rows(Causality.parameter) if v.name != "Ts"],  # acts on time alone
+)
+def test_a_parameter_that_one_side_ignores_would_be_noticed(name: str) -> None:
+    """Among few drawn runs is one in which the default in its place gives other outputs."""
+
+    def noticed(drawn: tuple[dict[str, object], int]) -> bool:
+        changes, seed = drawn
+        inputs = random_inputs(seed, TICKS, 4, float(changes["robot_weight"]))  # type: ignore[arg-type]
+        ignored = {key: value for key, value in changes.items() if key != name}
+        return (
+            float(np.abs(commands(changes, inputs) - commands(ignored, inputs)).max()) > TOLERANCE
+        )
+
+    find(st.tuples(settings_of(4), SEEDS), noticed, settings=settings(FEW, max_examples=60))
+
+
 @pytest.mark.parametrize("n_legs", [4, 6])
-def test_fmu_equals_reference_from_a_stored_gait(n_legs: int, fmu4: Path, fmu6: Path) -> None:
-    stored = {"stored": True, "phi_stored": tuple(0.5 * k for k in range(1, n_legs))}
-    result = compare(fmu4 if n_legs == 4 else fmu6, stored, n_legs, ticks=10_000)
+def test_fmu_equals_reference_over_minutes(n_legs: int, paths: dict[int, Path]) -> None:
+    result = compare(paths[n_legs], COUPLED, n_legs, ticks=10_000)
     assert result.worst <= TOLERANCE, result.difference
 
 
@@ -51,8 +98,9 @@ def test_comparison_exercises_every_output(fmu4: Path) -> None:
     assert [name for name, value in size.items() if value == 0.0] == []
 
 
+TEGOTAE, RESET = {"method": Method.tegotae}, {"method": Method.phase_reset}
 MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
-    "load": ("load.h", "2.0 / robot_weight", "2.0001 / robot_weight", {}),
+    "load": ("load.h", "2 / robot_weight", "2.0001 / robot_weight", {}),
     "load limit": ("load.h", "F < F_max ? F : F_max", "F", {}),
     "oscillator": ("oscillator.h", "w12 * o2", "1.0001 * w12 * o2", {}),
     "motor neurons": ("motor_neurons.h", "scale * a * o + b", "scale * a * o", {}),
@@ -61,12 +109,17 @@ MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
     "forward model": ("forward_model.h", "theta_hip <= theta", "theta_hip > theta", {}),
     "phase acquisition": ("phase_acquisition.h", "o1[0] * o2[r + 1];\n        s", "0.0;\n s", {}),
     "peak measure": ("phase_acquisition.h", "/ s->period", "/ (s->period + 1.0)", PEAKS),
-    "phase estimation": ("phase_estimation.h", "1.0 / N", "1.0 / (N + 1)", {}),
+    "phase estimation": ("phase_estimation.h", "1 / N", "1 / (N + 1)", {}),
     "switch": ("phase_estimation.h", "s->calm >= p", "s->calm > p", COUPLED),
     "neural coupling": ("neural_coupling.h", "gain * (", "1.0001 * gain * (", COUPLED),
     "yielding feedback": ("controller.c", "kept * gamma", "kept * 1.001 * gamma", COUPLED),
-    "tegotae": ("tegotae.h", "p->gamma_tegotae", "0.9 * p->gamma_tegotae", CASES["tegotae"]),
-    "phase reset": ("phase_reset.h", "F_before < threshold &&", "", CASES["phase_reset"]),
+    "tegotae": (
+        "tegotae.h",
+        "p->gamma_tegotae",
+        "0.9 * p->gamma_tegotae",
+        {"method": Method.tegotae},
+    ),
+    "phase reset": ("phase_reset.h", "F_before < threshold &&", "", RESET),
 }
 
 
