@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
@@ -86,27 +88,45 @@ _LIKELY: Final = {
 _MORE_OFTEN: Final = {"method": [*Method, Method.apnc, Method.apnc, Method.phase_reset]}
 
 
-@st.composite
-def settings_of(draw: st.DrawFn, n_legs: int) -> dict[str, object]:
-    """A value for every parameter of the table."""
-    drawn: dict[str, object] = {}
+def settings_of(
+    n_legs: int,
+    real: Callable[[float, float], float],
+    integer: Callable[[int, int], int],
+) -> dict[str, object]:
+    """A value for every parameter of the table, from pickers of numbers in a range."""
+    picked: dict[str, object] = {}
     for v in rows(Causality.parameter):
+        low, high = _LIKELY.get(v.name, (v.min, v.max))
         if v.enumeration:
-            drawn[v.name] = draw(
-                st.sampled_from(_MORE_OFTEN.get(v.name, list(v.enumeration.items)))
-            )
+            items = _MORE_OFTEN.get(v.name, list(v.enumeration.items))
+            picked[v.name] = items[integer(0, len(items) - 1)]
         elif v.type is Type.boolean:
-            drawn[v.name] = draw(st.booleans())
+            picked[v.name] = bool(integer(0, 1))
+        elif v.type is Type.integer:
+            picked[v.name] = integer(int(low or 0), int(high or 0))
+        elif v.shape is Shape.scalar:
+            picked[v.name] = real(low or 0.0, high or 0.0)
         else:
-            low, high = _LIKELY.get(v.name, (v.min, v.max))
-            assert low is not None and high is not None
-            if v.type is Type.integer:
-                drawn[v.name] = draw(st.integers(int(low), int(high)))
-                continue
-            number = st.floats(low, high)
-            count = v.count(n_legs)
-            drawn[v.name] = (
-                draw(number) if v.shape is Shape.scalar
-                else tuple(draw(st.lists(number, min_size=count, max_size=count)))
-            )  # fmt: skip
-    return drawn
+            picked[v.name] = tuple(real(low or 0.0, high or 0.0) for _ in range(v.count(n_legs)))
+    return picked
+
+
+Run = tuple[int, dict[str, object], int]
+"""Number of legs, a value for every parameter, seed of the inputs."""
+
+
+def uniform_run(seed: int) -> Run:
+    """Spread over all rules and ranges."""
+    rng = random.Random(seed)
+    n_legs = rng.choice((4, 6))
+    return n_legs, settings_of(n_legs, rng.uniform, rng.randint), seed
+
+
+@st.composite
+def drawn_runs(draw: st.DrawFn) -> Run:
+    """With a liking for the ends of the ranges and for zeros."""
+    n_legs = draw(st.sampled_from((4, 6)))
+    picked = settings_of(
+        n_legs, lambda a, b: draw(st.floats(a, b)), lambda a, b: draw(st.integers(a, b))
+    )
+    return n_legs, picked, draw(st.integers(0, 1000))
