@@ -131,7 +131,9 @@ class Outputs:
             Eq. 4).
         o1: output of neuron N1 (shape (n,), Eq. 2).
         o2: output of neuron N2 (shape (n,), Eq. 2).
-        gamma: gain of the sensory feedback (shape (n,), Eq. 9).
+        gamma: gain of the sensory feedback as it acts in Eq. 5: K_f + K_s (Eq. 9), times
+            feedback_kept while the couplings are on; gamma_tegotae or 0 in the baselines (shape
+            (n,), Eq. 5, 9).
         grf_expected: expected load over half the weight (shape (n,), Eq. 10).
         f1: sensory feedback to neuron N1 (shape (n,), Eq. 5).
         f2: sensory feedback to neuron N2 (shape (n,), Eq. 5).

@@ -83,7 +83,7 @@ def c_type(name: str) -> str:
 def c_field(v: Variable) -> str:
     """Struct member: int32_t for everything that is not Real, so that layouts agree everywhere."""
     size = {Shape.scalar: "", Shape.leg: "[APNC_LEGS]", Shape.relation: "[APNC_RELATIONS]"}[v.shape]
-    return f"{'double' if v.type is Type.real else 'int32_t'} {v.name}{size}"
+    return f"{'apnc_real' if v.type is Type.real else 'int32_t'} {v.name}{size}"
 
 
 def c_unit(v: Variable) -> str:

@@ -58,6 +58,8 @@ def config_header(options: BuildOptions, guid: str) -> bytes:
         f"#define APNC_LEGS {options.legs}",
         *(["#define APNC_NAMING_FLAT"] if options.naming == "flat" else []),
         f'#define APNC_GUID "{guid}"',
+        # static libraries of two builds share no name; the core alone has names by its legs
+        *([f"#define APNC_PREFIX apnc_{guid[1:9]}_"] if guid else []),
         "",
         "#endif",
         "",

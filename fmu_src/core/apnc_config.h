@@ -6,4 +6,6 @@
 #define APNC_LEGS 4 /* number of legs, the right ones first */
 #endif
 
+/* Define APNC_SINGLE for numbers of type float: processors without double arithmetic. */
+
 #endif

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "apnc_config.h"
+#include "apnc_names.h"
 
 #if APNC_LEGS < 2 || APNC_LEGS > 64
 #error "APNC_LEGS must be 2 to 64"
@@ -19,6 +19,12 @@
 #define APNC_VR_STRIDE 100u /* value reference = stride * row + element */
 #define APNC_VR_TIME 9900u /* of the independent variable in FMI 3.0 */
 #define APNC_ROWS 57
+
+#ifdef APNC_SINGLE
+typedef float apnc_real;
+#else
+typedef double apnc_real;
+#endif
 
 #define APNC_MI_START 0.08
 #define APNC_MI_MIN (0.0)
@@ -51,71 +57,71 @@ typedef enum {
 
 /* Parameters. */
 typedef struct {
-    double Ts; /* [s] time between two ticks of the controller */
-    double robot_weight; /* [N] Eq. 5: weight of the robot; half of it normalises the load */
-    double F_max; /* [1] Eq. 5: largest load over half the weight that the circuits see; a higher one, as in an impact or under a payload, counts as this */
+    apnc_real Ts; /* [s] time between two ticks of the controller */
+    apnc_real robot_weight; /* [N] Eq. 5: weight of the robot; half of it normalises the load */
+    apnc_real F_max; /* [1] Eq. 5: largest load over half the weight that the circuits see; a higher one, as in an impact or under a payload, counts as this */
     int32_t method; /* which controller runs */
-    double w11; /* [1] Eq. 3: self-weight of both neurons, w11 = w22 */
-    double w12_0; /* [1] Eq. 3: cross-weight at MI = 0: w12 = w12_0 + MI, w21 = -w12 */
-    double bias; /* [1] Eq. 1: bias added to both activations; the paper has none */
-    double o1_start; /* [1] Eq. 2: start output of neuron N1, the same for every leg */
-    double o2_start; /* [1] Eq. 2: start output of neuron N2, the same for every leg */
-    double a1; /* [rad] Eq. 4: slope of the motor neuron of the hip */
-    double a2; /* [rad] Eq. 4: slope of the motor neuron of the knee */
-    double b1; /* [rad] Eq. 4: offset of the motor neuron of the hip */
-    double b2; /* [rad] Eq. 4: offset of the motor neuron of the knee */
-    double turn_gain; /* [1] Eq. 4: relative change of the amplitudes at full steering */
-    double A_f; /* [1] Eq. 7: retention of the fast learner */
-    double B_f; /* [1] Eq. 7: learning rate of the fast learner */
-    double A_s; /* [1] Eq. 8: retention of the slow learner */
-    double B_s; /* [1] Eq. 8: learning rate of the slow learner */
-    double alpha; /* [1] Eq. 10: scale of the expected load */
-    double rho; /* [1] Eq. 10: shape of the expected load */
+    apnc_real w11; /* [1] Eq. 3: self-weight of both neurons, w11 = w22 */
+    apnc_real w12_0; /* [1] Eq. 3: cross-weight at MI = 0: w12 = w12_0 + MI, w21 = -w12 */
+    apnc_real bias; /* [1] Eq. 1: bias added to both activations; the paper has none */
+    apnc_real o1_start; /* [1] Eq. 2: start output of neuron N1, the same for every leg */
+    apnc_real o2_start; /* [1] Eq. 2: start output of neuron N2, the same for every leg */
+    apnc_real a1; /* [rad] Eq. 4: slope of the motor neuron of the hip */
+    apnc_real a2; /* [rad] Eq. 4: slope of the motor neuron of the knee */
+    apnc_real b1; /* [rad] Eq. 4: offset of the motor neuron of the hip */
+    apnc_real b2; /* [rad] Eq. 4: offset of the motor neuron of the knee */
+    apnc_real turn_gain; /* [1] Eq. 4: relative change of the amplitudes at full steering */
+    apnc_real A_f; /* [1] Eq. 7: retention of the fast learner */
+    apnc_real B_f; /* [1] Eq. 7: learning rate of the fast learner */
+    apnc_real A_s; /* [1] Eq. 8: retention of the slow learner */
+    apnc_real B_s; /* [1] Eq. 8: learning rate of the slow learner */
+    apnc_real alpha; /* [1] Eq. 10: scale of the expected load */
+    apnc_real rho; /* [1] Eq. 10: shape of the expected load */
     int32_t phase_measure; /* Eq. 12: how the relative phases are measured; the paper prints peak */
-    double phase_filter; /* [1] Eq. 12: new part per tick in the low-pass of the vector phase measure */
+    apnc_real phase_filter; /* [1] Eq. 12: new part per tick in the low-pass of the vector phase measure */
     int32_t N; /* Eq. 14: ticks in the mean of the relative phases */
-    double sigma; /* [rad] Eq. 16: threshold of d below which the phases count as stable */
+    apnc_real sigma; /* [rad] Eq. 16: threshold of d below which the phases count as stable */
     int32_t kappa_rule; /* Eq. 16: when the couplings switch on; the paper prints Eq. 16 */
     int32_t kappa_hold; /* Eq. 16: ticks that d stays at or below sigma before kappa switches on */
-    double xi; /* [1] Eq. 17: gain of the neural communication */
-    double feedback_kept; /* [1] Eq. 5: share of the sensory feedback that stays while the couplings are on; 1 as in the equations */
+    apnc_real xi; /* [1] Eq. 17: gain of the neural communication */
+    apnc_real feedback_kept; /* [1] Eq. 5: share of the sensory feedback that stays while the couplings are on; 1 as in the equations */
     int32_t coupling_sign; /* Eq. 18: sign of the coupling term; the paper prints plus */
     int32_t phi_frozen; /* Eq. 17: true: the couplings hold the phases measured when kappa switched on; false: the phases measured now, as Eq. 17 reads */
     int32_t MI_zero_resets; /* Eq. 3: true: MI = 0 acts as reset; false: the oscillators run on at w12 = w12_0, as Eq. 3 reads */
     int32_t stored; /* Eq. 17: true: start with the relations phi_stored learned and the couplings on */
-    double phi_stored[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k that a start with stored = true holds */
-    double gamma_tegotae; /* [1] Eq. 5: fixed feedback gain of the Tegotae baseline */
-    double grf_reset; /* [1] load, over a quarter of the weight, that resets the phase when crossed upwards (phase-resetting baseline) */
+    apnc_real phi_stored[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k that a start with stored = true holds */
+    apnc_real gamma_tegotae; /* [1] Eq. 5: fixed feedback gain of the Tegotae baseline */
+    apnc_real grf_reset; /* [1] load, over a quarter of the weight, that resets the phase when crossed upwards (phase-resetting baseline) */
 } apnc_parameters;
 
 /* Inputs of one tick. */
 typedef struct {
-    double grf[APNC_LEGS]; /* [N] Eq. 5: load on the foot; not finite, negative or above 1000 weights counts as zero and raises fault */
-    double MI; /* [1] Eq. 3: modulatory input: sets the stepping frequency; limited to its range */
-    double turn; /* [1] Eq. 4: steering, positive turns left: scales the amplitudes of the right legs up and of the left legs down; limited to its range */
+    apnc_real grf[APNC_LEGS]; /* [N] Eq. 5: load on the foot; not finite, negative or above 1000 weights counts as zero and raises fault */
+    apnc_real MI; /* [1] Eq. 3: modulatory input: sets the stepping frequency; limited to its range */
+    apnc_real turn; /* [1] Eq. 4: steering, positive turns left: scales the amplitudes of the right legs up and of the left legs down; limited to its range */
     int32_t reset; /* while true, oscillators, learners and forward models are held at their start state; the stored phase relations are kept */
 } apnc_inputs;
 
 /* Outputs and local variables of one tick. */
 typedef struct {
-    double theta_hip[APNC_LEGS]; /* [rad] Eq. 4: command of the hip joint, relative to the reference pose */
-    double theta_knee[APNC_LEGS]; /* [rad] Eq. 4: command of the knee joint, relative to the reference pose */
-    double o1[APNC_LEGS]; /* [1] Eq. 2: output of neuron N1 */
-    double o2[APNC_LEGS]; /* [1] Eq. 2: output of neuron N2 */
-    double gamma[APNC_LEGS]; /* [1] Eq. 9: gain of the sensory feedback */
-    double grf_expected[APNC_LEGS]; /* [1] Eq. 10: expected load over half the weight */
-    double f1[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N1 */
-    double f2[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N2 */
-    double g1[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N1, as added to its activation */
-    double g2[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N2, as added to its activation */
+    apnc_real theta_hip[APNC_LEGS]; /* [rad] Eq. 4: command of the hip joint, relative to the reference pose */
+    apnc_real theta_knee[APNC_LEGS]; /* [rad] Eq. 4: command of the knee joint, relative to the reference pose */
+    apnc_real o1[APNC_LEGS]; /* [1] Eq. 2: output of neuron N1 */
+    apnc_real o2[APNC_LEGS]; /* [1] Eq. 2: output of neuron N2 */
+    apnc_real gamma[APNC_LEGS]; /* [1] Eq. 5, 9: gain of the sensory feedback as it acts in Eq. 5: K_f + K_s (Eq. 9), times feedback_kept while the couplings are on; gamma_tegotae or 0 in the baselines */
+    apnc_real grf_expected[APNC_LEGS]; /* [1] Eq. 10: expected load over half the weight */
+    apnc_real f1[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N1 */
+    apnc_real f2[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N2 */
+    apnc_real g1[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N1, as added to its activation */
+    apnc_real g2[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N2, as added to its activation */
     int32_t fault[APNC_LEGS]; /* true while the load input of the leg is unusable */
-    double phi[APNC_RELATIONS]; /* [rad] Eq. 12: relative phase phi_1k of legs 1 and k = index + 1, in [-pi/2, 3 pi/2) */
-    double phi_memory[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k stored in the couplings; zero while there is none */
-    double d; /* [rad] Eq. 15: distance of the relative phases from their mean */
-    double kappa; /* [1] Eq. 16: 1 while the neural couplings are on, else 0 */
+    apnc_real phi[APNC_RELATIONS]; /* [rad] Eq. 12: relative phase phi_1k of legs 1 and k = index + 1, in [-pi/2, 3 pi/2) */
+    apnc_real phi_memory[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k stored in the couplings; zero while there is none */
+    apnc_real d; /* [rad] Eq. 15: distance of the relative phases from their mean */
+    apnc_real kappa; /* [1] Eq. 16: 1 while the neural couplings are on, else 0 */
     int32_t tick; /* Eq. 1: number of ticks run since the start */
-    double K_f[APNC_LEGS]; /* [1] Eq. 7: state of the fast learner */
-    double K_s[APNC_LEGS]; /* [1] Eq. 8: state of the slow learner */
+    apnc_real K_f[APNC_LEGS]; /* [1] Eq. 7: state of the fast learner */
+    apnc_real K_s[APNC_LEGS]; /* [1] Eq. 8: state of the slow learner */
 } apnc_outputs;
 
 /* Everything an importer can see, in one block. */
@@ -138,11 +144,17 @@ typedef struct {
     int count;
     apnc_type type;
     apnc_role role;
-    double start;
-    double min; /* inclusive; min > max: no range */
-    double max;
+    apnc_real start;
+    apnc_real min; /* inclusive; min > max: no range */
+    apnc_real max;
 } apnc_row;
 
+#ifdef __cplusplus
+extern "C" {
+#endif
 extern const apnc_row apnc_rows[APNC_ROWS];
+#ifdef __cplusplus
+}
+#endif
 
 #endif

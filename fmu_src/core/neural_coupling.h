@@ -7,23 +7,23 @@
 #ifndef APNC_NEURAL_COUPLING_H
 #define APNC_NEURAL_COUPLING_H
 
-#include <math.h>
+#include "elementary.h"
 
 /* Sines and cosines of the phases phi_11 = 0, phi_12, phi_13, ... [rad] of all legs. */
-static inline void apnc_relation(const double *phi, double *sin_phi, double *cos_phi) {
-    sin_phi[0] = 0.0;
-    cos_phi[0] = 1.0;
+static inline void apnc_relation(const apnc_real *phi, apnc_real *sin_phi, apnc_real *cos_phi) {
+    sin_phi[0] = 0;
+    cos_phi[0] = 1;
     for (int leg = 1; leg < APNC_LEGS; leg++) {
-        sin_phi[leg] = sin(phi[leg - 1]);
-        cos_phi[leg] = cos(phi[leg - 1]);
+        sin_phi[leg] = apnc_sin(phi[leg - 1]);
+        cos_phi[leg] = apnc_cos(phi[leg - 1]);
     }
 }
 
 /* g of one neuron of every leg times gain, from the sines and cosines of its outputs o. */
-static inline void apnc_couple(double gain, const double *sin_o, const double *cos_o,
-                               const double *sin_phi, const double *cos_phi, double *g) {
-    double sin_x[APNC_LEGS], cos_x[APNC_LEGS];
-    double sum_sin = 0.0, sum_cos = 0.0;
+static inline void apnc_couple(apnc_real gain, const apnc_real *sin_o, const apnc_real *cos_o,
+                               const apnc_real *sin_phi, const apnc_real *cos_phi, apnc_real *g) {
+    apnc_real sin_x[APNC_LEGS], cos_x[APNC_LEGS];
+    apnc_real sum_sin = 0, sum_cos = 0;
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         sin_x[leg] = sin_o[leg] * cos_phi[leg] + cos_o[leg] * sin_phi[leg];
         cos_x[leg] = cos_o[leg] * cos_phi[leg] - sin_o[leg] * sin_phi[leg];

@@ -2,37 +2,37 @@
 #ifndef APNC_PHASE_ESTIMATION_H
 #define APNC_PHASE_ESTIMATION_H
 
-#include <math.h>
 #include <string.h>
 
 #include "angle.h"
+#include "apnc.h"
 
 static inline void apnc_estimation_start(apnc_estimation *s) { memset(s, 0, sizeof *s); }
 
 /* d(n) = |Phi(n) - mean(Phi(n-1) ... Phi(n-N))| (Eq. 13-15). */
-static inline double apnc_distance(apnc_estimation *s, int N, const double *angle) {
-    const double share = 1.0 / N;
-    double squares = 0.0;
-    double *row = s->window[s->oldest];
+static inline apnc_real apnc_distance(apnc_estimation *s, int N, const apnc_real *angle) {
+    const apnc_real share = (apnc_real)1 / N;
+    apnc_real squares = 0;
+    apnc_real *row = s->window[s->oldest];
     for (int r = 0; r < APNC_RELATIONS; r++) {
         s->unwrapped[r] += apnc_wrap(angle[r] - s->angle_before[r], -APNC_PI);
         s->angle_before[r] = angle[r];
-        const double deviation = s->unwrapped[r] - s->sum[r] * share;
+        const apnc_real deviation = s->unwrapped[r] - s->sum[r] * share;
         squares += deviation * deviation;
         s->sum[r] += s->unwrapped[r] - row[r];
         row[r] = s->unwrapped[r];
     }
     s->oldest = s->oldest + 1 < N ? s->oldest + 1 : 0;
     if (s->oldest == 0) { /* summed anew once per round, so that rounding does not pile up */
-        for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] = 0.0;
+        for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] = 0;
         for (int i = 0; i < N; i++)
             for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] += s->window[i][r];
     }
-    return sqrt(squares);
+    return apnc_sqrt(squares);
 }
 
 /* Whether kappa may switch on at this tick (Eq. 16, or armed first and held). */
-static inline int apnc_settled(apnc_estimation *s, const apnc_parameters *p, double d) {
+static inline int apnc_settled(apnc_estimation *s, const apnc_parameters *p, apnc_real d) {
     const int below = d <= p->sigma;
     s->armed = s->armed || !below;
     if (!(s->armed && below))

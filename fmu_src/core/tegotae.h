@@ -2,6 +2,8 @@
 #ifndef APNC_TEGOTAE_H
 #define APNC_TEGOTAE_H
 
-static inline double apnc_tegotae_gain(const apnc_parameters *p) { return p->gamma_tegotae; }
+#include "apnc_variables.h"
+
+static inline apnc_real apnc_tegotae_gain(const apnc_parameters *p) { return p->gamma_tegotae; }
 
 #endif

@@ -1,9 +1,8 @@
 /* FMI 2.0 co-simulation interface: life cycle, pointers and types of the standard. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "fmi2Functions.h"
+#include "fmi2_standard.h"
 #include "instance.h"
 
 #ifndef APNC_GUID
@@ -110,11 +109,8 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
     (void)toleranceDefined;
     (void)tolerance;
     if (!allowed(f, APNC_INSTANTIATED, "fmi2SetupExperiment")) return fmi2Error;
-    if (!isfinite(startTime)) return fail(f, "fmi2SetupExperiment", "start time is not finite");
-    if (stopTimeDefined && !(stopTime >= startTime))
-        return fail(f, "fmi2SetupExperiment", "stop time is before start time");
-    f->base.run.start_time = startTime;
-    return fmi2OK;
+    return (fmi2Status)apnc_set_times(&f->base, "fmi2SetupExperiment", startTime, stopTimeDefined,
+                                      stopTime);
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {

@@ -2,7 +2,6 @@
  *
  * A row of the table is one variable: its value reference is that of its first entry.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -83,11 +82,9 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolera
     (void)toleranceDefined;
     (void)tolerance;
     if (!allowed(f, APNC_INSTANTIATED, "fmi3EnterInitializationMode")) return fmi3Error;
-    if (!isfinite(startTime))
-        return fail(f, "fmi3EnterInitializationMode", "start time is not finite");
-    if (stopTimeDefined && !(stopTime >= startTime))
-        return fail(f, "fmi3EnterInitializationMode", "stop time is before start time");
-    f->base.run.start_time = f->base.run.time = startTime;
+    if (apnc_set_times(&f->base, "fmi3EnterInitializationMode", startTime, stopTimeDefined,
+                       stopTime) != APNC_OK)
+        return fmi3Error;
     f->base.run.phase = APNC_INITIALIZATION;
     return fmi3OK;
 }
@@ -151,7 +148,7 @@ static fmi3Status check_access(fmu *f, int phases, const char *function,
     fmi3Status name(fmi3Instance instance, const fmi3ValueReference vr[], size_t nvr,              \
                     fmi_type values[], size_t nValues) {                                           \
         fmu *f = (fmu *)instance;                                                                  \
-        fmi3Status status = check_access(f, APNC_READABLE, #name, vr, nvr, values);                \
+        fmi3Status status = check_access(f, APNC_ANY, #name, vr, nvr, values);                     \
         EACH_VALUE(#name, type, {                                                                  \
             c_type value;                                                                          \
             status = (fmi3Status)apnc_get(&f->base, at, type, &value);                             \
@@ -190,7 +187,7 @@ SETTER(fmi3SetBoolean, fmi3Boolean, int32_t, APNC_BOOLEAN, as_flag)
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], size_t nvr,
                           fmi3Float64 values[], size_t nValues) {
     fmu *f = (fmu *)instance;
-    fmi3Status status = check_access(f, APNC_READABLE, "fmi3GetFloat64", vr, nvr, values);
+    fmi3Status status = check_access(f, APNC_ANY, "fmi3GetFloat64", vr, nvr, values);
     EACH_VALUE("fmi3GetFloat64", APNC_REAL, {
         if (at == APNC_VR_TIME)
             values[next] = f->base.run.time;

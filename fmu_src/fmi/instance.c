@@ -11,6 +11,8 @@
 #define TICK_TOLERANCE 1e-4
 /* Part of Ts by which a step may start away from the end of the one before. */
 #define GAP_TOLERANCE 0.5
+/* Part of Ts by which the last step may end after the stop time, as a rounded one does. */
+#define STOP_TOLERANCE 0.5
 /* Longer steps are taken for a mistake [ticks]. */
 #define MAX_TICKS_PER_STEP 10000000.0
 
@@ -58,8 +60,20 @@ apnc_status apnc_choose_logging(apnc_instance *instance, const char *function, i
 void apnc_run_clear(apnc_run *run) {
     memset(run, 0, sizeof *run);
     apnc_defaults(&run->data);
+    run->stop_time = INFINITY;
     run->phase = APNC_INSTANTIATED;
     run->outdated = 1;
+}
+
+apnc_status apnc_set_times(apnc_instance *instance, const char *function, double start_time,
+                           int stop_defined, double stop_time) {
+    apnc_run *run = &instance->run;
+    if (!isfinite(start_time)) return apnc_refuse(instance, function, "start time is not finite");
+    if (stop_defined && !(stop_time >= start_time))
+        return apnc_refuse(instance, function, "stop time is before start time");
+    run->start_time = run->time = start_time;
+    run->stop_time = stop_defined ? stop_time : INFINITY;
+    return APNC_OK;
 }
 
 /* "leg[2].grf" */
@@ -115,7 +129,13 @@ apnc_status apnc_get(apnc_instance *instance, uint32_t value_reference, apnc_typ
     int element;
     const apnc_row *row = find(instance, value_reference, wanted, &at, &element);
     if (!row) return APNC_ERROR;
-    if (row->role == APNC_OUTPUT || row->role == APNC_LOCAL) refresh(instance);
+    if (row->role == APNC_OUTPUT || row->role == APNC_LOCAL) {
+        if (instance->run.phase == APNC_INSTANTIATED)
+            return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
+                               "%s is an output: it has no value before initialization",
+                               name_of(row, element).text);
+        refresh(instance);
+    }
     memcpy(value, at, row->type == APNC_REAL ? sizeof(double) : sizeof(int32_t));
     return APNC_OK;
 }
@@ -267,6 +287,9 @@ apnc_status apnc_step(apnc_instance *instance, double t, double h) {
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                            "step starts at %.9g s, but the one before ended at %.9g s", t,
                            run->time);
+    if (end > run->stop_time + STOP_TOLERANCE * Ts)
+        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
+                           "step to %.9g s goes beyond the stop time, %.9g s", end, run->stop_time);
     if ((due_before - run->start_time) / Ts - (double)run->next_tick > MAX_TICKS_PER_STEP)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                            "step by %g s has more than %g ticks of %g s", h, MAX_TICKS_PER_STEP,

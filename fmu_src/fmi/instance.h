@@ -7,6 +7,26 @@
 
 #include "apnc.h"
 
+#ifdef APNC_SINGLE
+#error "FMI variables are of type double"
+#endif
+
+#define apnc_log_names           APNC_NAME(log_names)
+#define apnc_report              APNC_NAME(report)
+#define apnc_refuse              APNC_NAME(refuse)
+#define apnc_allowed             APNC_NAME(allowed)
+#define apnc_choose_logging      APNC_NAME(choose_logging)
+#define apnc_run_clear           APNC_NAME(run_clear)
+#define apnc_set_times           APNC_NAME(set_times)
+#define apnc_get                 APNC_NAME(get)
+#define apnc_set                 APNC_NAME(set)
+#define apnc_parameters_in_range APNC_NAME(parameters_in_range)
+#define apnc_start               APNC_NAME(start)
+#define apnc_step                APNC_NAME(step)
+#define apnc_blob_size           APNC_NAME(blob_size)
+#define apnc_blob_write          APNC_NAME(blob_write)
+#define apnc_blob_read           APNC_NAME(blob_read)
+
 /* The codes of FMI 2.0 and 3.0. */
 typedef enum { APNC_OK = 0, APNC_WARNING = 1, APNC_DISCARD = 2, APNC_ERROR = 3 } apnc_status;
 
@@ -33,6 +53,7 @@ typedef struct {
     apnc_data data;
     apnc_state state;
     double start_time;  /* [s] */
+    double stop_time;   /* [s] infinite if there is none */
     double time;        /* [s] end of the last step */
     int64_t next_tick;  /* number of the next tick, due at start_time + next_tick Ts */
     int32_t phase;      /* apnc_phase */
@@ -68,7 +89,12 @@ apnc_status apnc_choose_logging(apnc_instance *instance, const char *function, i
 /* Values as after instantiation. */
 void apnc_run_clear(apnc_run *run);
 
-/* Read or write one value; wanted and its C type must be those of the variable. */
+/* Times of the experiment [s]; stop_time counts if stop_defined. */
+apnc_status apnc_set_times(apnc_instance *instance, const char *function, double start_time,
+                           int stop_defined, double stop_time);
+
+/* Read or write one value; wanted and its C type must be those of the variable. Before
+ * initialization only rows with a start value can be read. */
 apnc_status apnc_get(apnc_instance *instance, uint32_t value_reference, apnc_type wanted,
                      void *value);
 apnc_status apnc_set(apnc_instance *instance, uint32_t value_reference, apnc_type wanted,
@@ -80,7 +106,8 @@ int apnc_parameters_in_range(const apnc_data *data);
 /* Check all parameters against their ranges, then start the controller. */
 apnc_status apnc_start(apnc_instance *instance);
 
-/* Run every tick with t <= start_time + k Ts < t + h. Times in s. */
+/* Run every tick with t <= start_time + k Ts < t + h. Times in s. A step beyond the stop time is
+ * an error. */
 apnc_status apnc_step(apnc_instance *instance, double t, double h);
 
 /* Saved states as bytes. */

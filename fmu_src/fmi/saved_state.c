@@ -1,5 +1,4 @@
 /* Saved states as bytes: a header that tells what follows, then the run as it lies in memory. */
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -8,15 +7,13 @@
 /* Header of a saved state. */
 typedef struct {
     char magic[8];
-    uint32_t version; /* of the layout of apnc_run */
-    uint32_t legs;
+    char build[40];    /* its guid: sources and all choices of the build */
     uint64_t size;     /* of apnc_run [bytes] */
     uint64_t checksum; /* FNV-1a of apnc_run */
 } blob_header;
 
-#define BLOB_MAGIC   "APNCrun"
-#define BLOB_VERSION 1u
-#define MAX_TICK     (INT64_C(1) << 53) /* the largest that is still exact as a double */
+#define BLOB_MAGIC "APNCrun"
+#define MAX_TICK   (INT64_C(1) << 53) /* the largest that is still exact as a double */
 
 static uint64_t checksum(const unsigned char *bytes, size_t size) {
     uint64_t hash = 14695981039346656037u;
@@ -27,7 +24,7 @@ static uint64_t checksum(const unsigned char *bytes, size_t size) {
 size_t apnc_blob_size(void) { return sizeof(blob_header) + sizeof(apnc_run); }
 
 void apnc_blob_write(const apnc_run *run, unsigned char *blob) {
-    blob_header header = {BLOB_MAGIC, BLOB_VERSION, APNC_LEGS, sizeof *run, 0};
+    blob_header header = {BLOB_MAGIC, APNC_GUID, sizeof *run, 0};
     header.checksum = checksum((const unsigned char *)run, sizeof *run);
     memcpy(blob, &header, sizeof header);
     memcpy(blob + sizeof header, run, sizeof *run);
@@ -40,7 +37,8 @@ static int sound(const apnc_run *run) {
     if (phase != APNC_INSTANTIATED && phase != APNC_INITIALIZATION && phase != APNC_STEPPING &&
         phase != APNC_TERMINATED)
         return 0;
-    if (!(fabs(run->start_time) <= DBL_MAX && fabs(run->time) <= DBL_MAX)) return 0;
+    if (!isfinite(run->start_time) || !isfinite(run->time)) return 0;
+    if (!(run->stop_time >= run->start_time)) return 0;
     if (run->next_tick < 0 || run->next_tick > MAX_TICK) return 0;
     if (run->state.ticks < 0 || run->state.ticks > MAX_TICK) return 0;
     if (oldest < 0 || oldest >= APNC_WINDOW_MAX) return 0;
@@ -50,6 +48,7 @@ static int sound(const apnc_run *run) {
 
 apnc_status apnc_blob_read(apnc_instance *instance, const unsigned char *blob, size_t size,
                            apnc_run *run) {
+    const blob_header own = {BLOB_MAGIC, APNC_GUID, sizeof *run, 0};
     blob_header header;
     if (size < sizeof header)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
@@ -57,12 +56,10 @@ apnc_status apnc_blob_read(apnc_instance *instance, const unsigned char *blob, s
     memcpy(&header, blob, sizeof header);
     if (memcmp(header.magic, BLOB_MAGIC, sizeof header.magic) != 0)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "not a saved state of this FMU");
-    if (header.version != BLOB_VERSION || header.legs != APNC_LEGS || header.size != sizeof *run)
+    if (memcmp(header.build, own.build, sizeof own.build) != 0 || header.size != own.size)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                           "saved state is of version %lu for %lu legs; this FMU takes version %lu "
-                           "for %d legs",
-                           (unsigned long)header.version, (unsigned long)header.legs,
-                           (unsigned long)BLOB_VERSION, APNC_LEGS);
+                           "saved state was made by another build of the FMU, not by %s",
+                           APNC_GUID);
     if (size != apnc_blob_size())
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                            "saved state has %lu bytes; %lu are needed", (unsigned long)size,

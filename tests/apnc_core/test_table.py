@@ -28,7 +28,7 @@ def test_drift_is_noticed(tmp_path: Path) -> None:
         (tmp_path / path).write_text(text)
     assert generate.outdated(tmp_path) == []
     changed = tmp_path / "fmu_src/core/apnc_variables.h"
-    changed.write_text(changed.read_text().replace("double MI;", "float MI;"))
+    changed.write_text(changed.read_text().replace("apnc_real MI;", "float MI;"))
     assert generate.outdated(tmp_path) == ["fmu_src/core/apnc_variables.h"]
 
 

@@ -111,6 +111,42 @@ def test_stored_gait_enumeration_and_boolean_can_be_set() -> None:
         assert fmu.getFloat64([REFERENCE["kappa"]]) == [1.0]
 
 
+def test_start_values_can_be_read_before_initialization() -> None:
+    with slave3(4) as fmu:
+        for v in TABLE:
+            get = {
+                Type.real: fmu.getFloat64,
+                Type.integer: fmu.getInt32,
+                Type.boolean: fmu.getBoolean,
+                Type.enumeration: fmu.getInt64,
+            }[v.type]
+            if v.start is not None:
+                assert get([REFERENCE[v.name]], nValues=v.count(4)) == [v.start] * v.count(4)
+                continue
+            with pytest.raises(FMICallException):
+                get([REFERENCE[v.name]], nValues=v.count(4))
+            assert "no value before initialization" in fmu.messages[-1]
+        fmu.setFloat64([REFERENCE["xi"]], [0.5])
+        assert fmu.getFloat64([REFERENCE["xi"]]) == [0.5]
+        start(fmu)
+        assert fmu.getFloat64([REFERENCE["o1"]], nValues=4) == [0.1] * 4
+
+
+@pytest.mark.parametrize(("over", "fine"), [(0.49, True), (0.51, False)])
+def test_a_step_beyond_the_stop_time_is_an_error_from_half_a_tick_on(
+    over: float, fine: bool
+) -> None:
+    with slave3(4) as fmu:
+        fmu.enterInitializationMode(startTime=0.0, stopTime=TS)
+        fmu.exitInitializationMode()
+        if fine:
+            fmu.doStep(0.0, (1.0 + over) * TS)
+            return
+        with pytest.raises(FMICallException):
+            fmu.doStep(0.0, (1.0 + over) * TS)
+        assert "beyond the stop time" in fmu.messages[-1]
+
+
 def test_saved_state_continues_bit_for_bit() -> None:
     with slave3(4) as fmu:
         start(fmu)

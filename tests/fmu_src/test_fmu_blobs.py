@@ -6,12 +6,17 @@ import ctypes
 import math
 import random
 import struct
+import zipfile
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 from raw_fmu import ERROR, OK, TS, Instance, Library, fmu_in
 
-HEADER = 32
+from build_fmu.build import cached_fmu
+from build_fmu.options import BuildOptions, host_platform
+
+HEADER = 64
 """Bytes in front of the run; the first of the run are Ts."""
 
 
@@ -57,8 +62,8 @@ def read_back(fmu: Instance, content: bytes) -> int:
         (lambda b: b[:200], "bytes"),
         (lambda b: b"PK\3\4" + b[4:], "not a saved state"),
         (lambda b: bytes(len(b)), "not a saved state"),
-        (lambda b: b[:8] + b"\xff" + b[9:], "version"),
-        (lambda b: b[:12] + b"\x06" + b[13:], "legs"),
+        (lambda b: b[:9] + bytes([b[9] ^ 1]) + b[10:], "another build"),
+        (lambda b: b[:48] + b"\0" + b[49:], "another build"),
         (lambda b: b[:-1] + bytes([b[-1] ^ 1]), "damaged"),
     ],
 )
@@ -76,13 +81,31 @@ def test_foreign_and_truncated_blobs(
 def test_any_flipped_bit_is_noticed(library: Library, blob: bytes) -> None:
     fmu = fmu_in(library, "stepping")
     rng = random.Random(1)
-    header = range(8 * 40)
+    header = range(8 * HEADER)
     places = [*header, *(rng.randrange(8 * len(blob)) for _ in range(3000))]
     for place in places:
         spoiled = bytearray(blob)
         spoiled[place // 8] ^= 1 << place % 8
         assert read_back(fmu, bytes(spoiled)) == ERROR, place
     fmu.free()
+
+
+def test_a_state_of_another_build_is_refused_even_if_it_has_the_same_layout(
+    library: Library, tmp_path: Path
+) -> None:
+    with zipfile.ZipFile(
+        cached_fmu(BuildOptions(naming="flat", platforms=(host_platform(),)))
+    ) as archive:
+        archive.extractall(tmp_path)
+    flat = fmu_in(Library.load(tmp_path), "stepping")
+    own = fmu_in(library, "stepping")
+    foreign = serialized(flat)
+    assert len(foreign) == len(serialized(own))
+    assert read_back(own, foreign) == ERROR
+    assert f"another build of the FMU, not by {library.guid}" in own.messages[0]
+    assert read_back(flat, foreign) == OK
+    own.free()
+    flat.free()
 
 
 def with_checksum(content: bytearray) -> bytes:

@@ -162,12 +162,32 @@ def test_stop_time_not_defined_may_be_anything(library: Library, stop: float) ->
     fmu.free()
 
 
-def test_stepping_past_the_stop_time_is_allowed(library: Library) -> None:
+def fmu_until(library: Library, stop: float) -> Instance:
     fmu = Instance(library)
-    assert fmu("fmi2SetupExperiment", 0, 0.0, 0.0, 1, TS) == OK
+    assert fmu("fmi2SetupExperiment", 0, 0.0, 0.0, 1, stop) == OK
     assert fmu("fmi2EnterInitializationMode") == OK
     assert fmu("fmi2ExitInitializationMode") == OK
+    return fmu
+
+
+def test_a_step_beyond_the_stop_time_is_an_error_and_changes_nothing(library: Library) -> None:
+    fmu = fmu_until(library, 2 * TS)
+    assert [fmu.step(n * TS) for n in range(3)] == [OK, OK, ERROR]
+    assert "beyond the stop time" in fmu.messages[0]
+    assert ticks_after(fmu) == 2
+    # a longer run is another experiment
+    assert fmu("fmi2Reset") == OK
+    fmu.start()
     assert [fmu.step(n * TS) for n in range(3)] == [OK] * 3
+    fmu.free()
+
+
+@pytest.mark.parametrize(("over", "status"), [(0.49, OK), (0.51, ERROR)])
+def test_the_last_step_may_be_rounded_by_less_than_half_a_tick(
+    library: Library, over: float, status: int
+) -> None:
+    fmu = fmu_until(library, TS)
+    assert fmu.step(0.0, (1.0 + over) * TS) == status
     fmu.free()
 
 

@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
-from parity import compare
+from hypothesis import Phase, given, settings
+from parity import Run, compare, drawn_runs, random_inputs, uniform_run
 
-from apnc_core.enumerations import CouplingSign, KappaRule, Method, PhaseMeasure
+from apnc_core.controller import Controller
+from apnc_core.enumerations import Method, PhaseMeasure
+from apnc_core.interface import Parameters
+from apnc_core.schema import Causality
+from apnc_core.variables import rows
 from build_fmu import sources
 from build_fmu.build import fmu_bytes
 from build_fmu.options import BuildOptions, host_platform
@@ -18,31 +24,76 @@ TOLERANCE = 1e-9
 COUPLED = {"kappa_hold": 10, "sigma": 1.0}
 PEAKS = {"phase_measure": PhaseMeasure.peak, **COUPLED}
 
-CASES: dict[str, dict[str, object]] = {
-    "apnc": COUPLED,
-    "apc": {"method": Method.apc},
-    "tegotae": {"method": Method.tegotae},
-    "phase_reset": {"method": Method.phase_reset},
-    "peak measure": PEAKS,
-    "printed kappa rule": {"kappa_rule": KappaRule.printed},
-    "live phases": {"phi_frozen": False, **COUPLED},
-    "printed sign": {"coupling_sign": CouplingSign.printed, **COUPLED},
-    "MI = 0 runs on": {"MI_zero_resets": False},
-    "bias": {"bias": 0.01},
-}
+TICKS = 300
+RUNS = [uniform_run(seed) for seed in range(40)]
+# without shrinking, which takes a minute; the long form does it
+FEW = settings(
+    max_examples=15, deadline=None, derandomize=True, database=None, phases=(Phase.generate,)
+)
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.fixture(scope="session")
+def paths(fmu4: Path, fmu6: Path) -> dict[int, Path]:
+    return {4: fmu4, 6: fmu6}
+
+
+def check(paths: dict[int, Path], run: Run) -> None:
+    n_legs, changes, seed = run
+    result = compare(paths[n_legs], changes, n_legs, TICKS, seed)
+    assert result.worst <= TOLERANCE, (run, result.difference)
+
+
+def test_fmu_equals_reference_for_any_parameters(paths: dict[int, Path]) -> None:
+    for run in RUNS:
+        check(paths, run)
+
+
+@FEW
+@given(run=drawn_runs())
+def test_fmu_equals_reference_at_the_ends_of_ranges(paths: dict[int, Path], run: Run) -> None:
+    check(paths, run)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000, deadline=None)
+@given(run=drawn_runs())
+def test_fmu_equals_reference_for_many_parameters(paths: dict[int, Path], run: Run) -> None:
+    check(paths, run)
+
+
+def outputs(run: Run, ignored: str = "") -> np.ndarray:
+    """Outputs of the reference over a drawn run, one parameter left at its default."""
+    n_legs, changes, seed = run
+    inputs = random_inputs(seed, TICKS, n_legs, float(changes["robot_weight"]))  # type: ignore[arg-type]
+    used = {name: value for name, value in changes.items() if name != ignored}
+    reference = Controller(Parameters(**used), n_legs)  # type: ignore[arg-type]  # typed per name
+    return np.array([
+        np.concatenate([out.theta_hip, out.theta_knee, out.gamma, out.phi, [out.d, out.kappa]])
+        for out in map(reference.tick, inputs)
+    ])  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def outputs_of_runs() -> list[np.ndarray]:
+    return [outputs(run) for run in RUNS]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [v.name for v in rows(Causality.parameter) if v.name != "Ts"],  # acts on time alone
+)
+def test_a_parameter_that_one_side_ignores_would_be_noticed(
+    name: str, outputs_of_runs: list[np.ndarray]
+) -> None:
+    assert any(
+        np.abs(outputs(run, ignored=name) - expected).max() > TOLERANCE
+        for run, expected in zip(RUNS, outputs_of_runs, strict=True)
+    )
+
+
 @pytest.mark.parametrize("n_legs", [4, 6])
-def test_fmu_equals_reference(case: str, n_legs: int, fmu4: Path, fmu6: Path) -> None:
-    result = compare(fmu4 if n_legs == 4 else fmu6, CASES[case], n_legs, ticks=10_000)
-    assert result.worst <= TOLERANCE, result.difference
-
-
-@pytest.mark.parametrize("n_legs", [4, 6])
-def test_fmu_equals_reference_from_a_stored_gait(n_legs: int, fmu4: Path, fmu6: Path) -> None:
-    stored = {"stored": True, "phi_stored": tuple(0.5 * k for k in range(1, n_legs))}
-    result = compare(fmu4 if n_legs == 4 else fmu6, stored, n_legs, ticks=10_000)
+def test_fmu_equals_reference_over_minutes(n_legs: int, paths: dict[int, Path]) -> None:
+    result = compare(paths[n_legs], COUPLED, n_legs, ticks=10_000)
     assert result.worst <= TOLERANCE, result.difference
 
 
@@ -51,8 +102,9 @@ def test_comparison_exercises_every_output(fmu4: Path) -> None:
     assert [name for name, value in size.items() if value == 0.0] == []
 
 
+TEGOTAE, RESET = {"method": Method.tegotae}, {"method": Method.phase_reset}
 MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
-    "load": ("load.h", "2.0 / robot_weight", "2.0001 / robot_weight", {}),
+    "load": ("load.h", "2 / robot_weight", "2.0001 / robot_weight", {}),
     "load limit": ("load.h", "F < F_max ? F : F_max", "F", {}),
     "oscillator": ("oscillator.h", "w12 * o2", "1.0001 * w12 * o2", {}),
     "motor neurons": ("motor_neurons.h", "scale * a * o + b", "scale * a * o", {}),
@@ -61,12 +113,17 @@ MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
     "forward model": ("forward_model.h", "theta_hip <= theta", "theta_hip > theta", {}),
     "phase acquisition": ("phase_acquisition.h", "o1[0] * o2[r + 1];\n        s", "0.0;\n s", {}),
     "peak measure": ("phase_acquisition.h", "/ s->period", "/ (s->period + 1.0)", PEAKS),
-    "phase estimation": ("phase_estimation.h", "1.0 / N", "1.0 / (N + 1)", {}),
+    "phase estimation": ("phase_estimation.h", "1 / N", "1 / (N + 1)", {}),
     "switch": ("phase_estimation.h", "s->calm >= p", "s->calm > p", COUPLED),
     "neural coupling": ("neural_coupling.h", "gain * (", "1.0001 * gain * (", COUPLED),
     "yielding feedback": ("controller.c", "kept * gamma", "kept * 1.001 * gamma", COUPLED),
-    "tegotae": ("tegotae.h", "p->gamma_tegotae", "0.9 * p->gamma_tegotae", CASES["tegotae"]),
-    "phase reset": ("phase_reset.h", "F_before < threshold &&", "", CASES["phase_reset"]),
+    "tegotae": (
+        "tegotae.h",
+        "p->gamma_tegotae",
+        "0.9 * p->gamma_tegotae",
+        {"method": Method.tegotae},
+    ),
+    "phase reset": ("phase_reset.h", "F_before < threshold &&", "", RESET),
 }
 
 

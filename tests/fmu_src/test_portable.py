@@ -12,7 +12,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from native_driver import HEADERS, OUTPUTS, drive, drive3
+from native_driver import HEADERS, OUTPUTS, drive, drive3, load
 from slave import TS, slave
 
 from apnc_core.enumerations import KappaRule, Method
@@ -216,13 +216,6 @@ def test_fmi_3_gives_the_bits_of_fmi_2(
     fmi3 = drive3(platform, everywhere3, scratch, MINUTE, ALWAYS_COUPLED)
     np.testing.assert_array_equal(fmi3, fmi2)
     assert {"theta_hip", "theta_knee", "g1"} <= moved(fmi3.view(float))
-
-
-def load(seed: int, tick: int, foot: int) -> tuple[int, float]:
-    """As in driver.c, so that the driver's bits can be compared with what fmpy reads."""
-    seed = (seed * 6364136223846793005 + 1442695040888963407) % 2**64
-    period = 41 + 3 * foot
-    return seed, 8 + 6 * ((seed >> 11) / 2**53) if tick % period < period // 2 else 0.0
 
 
 def test_driver_and_fmpy_read_the_same_bits(

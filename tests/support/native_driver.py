@@ -118,3 +118,10 @@ def _run(
     bits = np.array(rows, dtype=np.uint64)
     assert bits.shape == (numbers[0], len(OUTPUTS))
     return bits
+
+
+def load(seed: int, tick: int, foot: int) -> tuple[int, float]:
+    """Next seed and load [N], as in importer.h: bits of the drivers can be compared with others."""
+    seed = (seed * 6364136223846793005 + 1442695040888963407) % 2**64
+    period = 41 + 3 * foot
+    return seed, 8 + 6 * ((seed >> 11) / 2**53) if tick % period < period // 2 else 0.0
