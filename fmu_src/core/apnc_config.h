@@ -6,4 +6,6 @@
 #define APNC_LEGS 4 /* number of legs, the right ones first */
 #endif
 
+/* Own start values: #define APNC_DEFAULTS(p) (p)->robot_weight = 60.0; (p)->xi = 0.03; */
+
 #endif
