@@ -44,9 +44,14 @@ class ReadyFmus(BuildHookInterface[Any]):
             return
         for path, name in built:
             build_data["force_include"][str(path)] = f"build_fmu/ready/{name}"
-        if platforms and set(platforms) != set(WHEEL_TAGS):
-            build_data["pure_python"] = False
-            build_data["tag"] = "py3-none-" + ".".join(WHEEL_TAGS[name] for name in platforms)
+        build_data["tag"] = wheel_tag(platforms)
+        build_data["pure_python"] = build_data["tag"].endswith("-any")
+
+
+def wheel_tag(platforms: tuple[str, ...]) -> str:
+    """Tag of a wheel whose FMUs have binaries for ``platforms``."""
+    everywhere = not platforms or set(platforms) == set(WHEEL_TAGS)
+    return f"py3-none-{'any' if everywhere else '.'.join(WHEEL_TAGS[p] for p in platforms)}"
 
 
 def _platforms(wanted: str) -> tuple[str, ...]:

@@ -41,7 +41,9 @@ def _temporary() -> Path:
     found = folder.lstat()
     # anybody may have made a folder of that name, with files in it that would be loaded
     mine = not hasattr(os, "getuid") or (found.st_uid == user and not found.st_mode & 0o022)
-    return folder if mine and stat.S_ISDIR(found.st_mode) else Path(tempfile.mkdtemp(prefix="apnc-"))
+    return (
+        folder if mine and stat.S_ISDIR(found.st_mode) else Path(tempfile.mkdtemp(prefix="apnc-"))
+    )
 
 
 def write_atomically(path: Path, content: bytes) -> None:

@@ -36,10 +36,12 @@ ABOUT: Final = {
     "generationTool": f"apnc {apnc_core.__version__}",
 }
 STOP_TIME: Final = "45"
-_DESCRIPTION: Final = "Adaptive neural controller of a legged robot: self-organised, memorised gaits"
+_DESCRIPTION: Final = (
+    "Adaptive neural controller of a legged robot: self-organised, memorised gaits"
+)
 
 
-def description(options: BuildOptions) -> str:
+def about(options: BuildOptions) -> str:
     """What the FMU is, and with which start values of its own."""
     own = options.own_defaults()
     return f"{_DESCRIPTION}; starts with {own}" if own else _DESCRIPTION

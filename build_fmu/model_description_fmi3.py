@@ -12,10 +12,10 @@ from apnc_core.variables import TABLE, value_reference
 from build_fmu.description_parts import (
     ABOUT,
     REAL_TYPES,
+    about,
     add_experiment,
     add_log_categories,
     add_units,
-    description,
     initial,
     number,
     type_of,
@@ -43,7 +43,7 @@ def model_description_fmi3(options: BuildOptions, token: str) -> bytes:
         fmiVersion="3.0",
         modelName=MODEL,
         instantiationToken=token,
-        description=description(options),
+        description=about(options),
         **ABOUT,
         variableNamingConvention="structured",
     )

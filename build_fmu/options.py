@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import Final
+from typing import Any, Final
 
 from apnc_core.interface import Parameters
 from apnc_core.presets import PRESETS, preset
@@ -66,8 +65,10 @@ class BuildOptions:
                 raise BuildError(f"{name} '{value}' is not one of {', '.join(allowed)}")
         if self.fmi not in FMI_VERSIONS:
             raise BuildError(f"fmi = {self.fmi} is not one of 2, 3")
-        memory = {"stored": True, "phi_stored": tuple(self.memory)} if self.memory else {}
-        own = {name: checked(name, value) for name, value in (memory | dict(self.settings)).items()}
+        chosen: dict[str, Setting] = {}
+        if self.memory:
+            chosen = {"stored": True, "phi_stored": tuple(self.memory)}
+        own = {name: checked(name, value) for name, value in (chosen | dict(self.settings)).items()}
         phi = own.get("phi_stored", ())
         if isinstance(phi, tuple) and len(phi) not in (0, self.legs - 1):
             raise BuildError(
@@ -85,12 +86,12 @@ class BuildOptions:
         """Start values of a row, one per entry; empty for an output."""
         if v.start is None:
             return ()
-        value = v.start
+        value: Value | tuple[float, ...] = v.start
         if v.causality is Causality.parameter:
             value = getattr(self.parameters(), v.name)
-        if isinstance(value, tuple) and value:
-            return value
-        return (v.start if value == () else value,) * v.count(self.legs)
+        if not isinstance(value, tuple):
+            return (value,) * v.count(self.legs)
+        return value or (v.start,) * v.count(self.legs)
 
     def changed(self) -> list[Variable]:
         """The rows whose start values are not those of the table."""
@@ -104,7 +105,7 @@ class BuildOptions:
 
 
 def in_words(name: str, value: Setting) -> str:
-    """A value of a parameter as a person reads it: items by name, true and false in small letters."""
+    """A value of a parameter as a person reads it: items by name, true and false in lower case."""
     enumeration = row(name).enumeration
     if isinstance(value, Sequence):
         return " ".join(f"{x:.6g}" for x in value)
@@ -141,10 +142,11 @@ def checked(name: str, value: Setting) -> Setting:
     return _number(v, value)
 
 
-def _number(v: Variable, value: Value) -> float | int:
+def _number(v: Variable, value: Any) -> float | int:
     low, high = (1, len(v.enumeration.items)) if v.enumeration else (v.min, v.max)
     assert low is not None and high is not None
-    if isinstance(value, bool) or not math.isfinite(value) or not low <= value <= high:
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not number or not low <= value <= high:  # NaN is in no range
         raise BuildError(f"{v.name} = {value} is not in {low:g} ... {high:g}")
     if v.type is Type.real:
         return float(value)

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Final
 
 import apnc_core
 from apnc_core.legs import leg_names
-from build_fmu.build import Progress, cached_fmu
+from build_fmu.build import cached_fmu
 from build_fmu.cache import write_atomically
 from build_fmu.options import BuildOptions
+from build_fmu.platforms import PLATFORMS
 
 LEGS: Final = (4, 6)
 VARIANTS: Final[tuple[tuple[str, BuildOptions, str], ...]] = tuple(
@@ -26,13 +29,16 @@ VARIANTS: Final[tuple[tuple[str, BuildOptions, str], ...]] = tuple(
 
 
 def release(
-    folder: Path, progress: Callable[[str, str], None] = lambda file, platform: None
+    folder: Path,
+    progress: Callable[[str, str], None] = lambda file, platform: None,
+    platforms: tuple[str, ...] = tuple(PLATFORMS),
 ) -> list[Path]:
     """Write the FMUs of a release, SHA256SUMS and index.md, which says what is in each.
 
     Args:
         folder: where to write; made if it is not there.
         progress: called with the file and the platform that is compiled next.
+        platforms: names of the binaries to include.
 
     Returns:
         The files written.
@@ -43,9 +49,9 @@ def release(
     """
     files: dict[str, bytes] = {}
     for name, options, _ in VARIANTS:
-        told: Progress = lambda platform, name=name: progress(name, platform)  # noqa: E731
-        files[name] = cached_fmu(options, told).read_bytes()
-    files["index.md"] = _index(files).encode()
+        told = partial(progress, name)
+        files[name] = cached_fmu(replace(options, platforms=platforms), told).read_bytes()
+    files["index.md"] = _index(files, platforms).encode()
     sums = (f"{hashlib.sha256(content).hexdigest()}  {name}\n" for name, content in files.items())
     files["SHA256SUMS"] = "".join(sums).encode()
     for name, content in files.items():
@@ -53,13 +59,12 @@ def release(
     return [folder / name for name in files]
 
 
-def _index(files: dict[str, bytes]) -> str:
+def _index(files: dict[str, bytes], platforms: tuple[str, ...]) -> str:
     table = "\n".join(
         f"| `{name}` | {', '.join(leg_names(options.legs))} | {text} "
         f"| {len(files[name]) / 1000:.0f} kB |"
         for name, options, text in VARIANTS
     )
-    platforms = ", ".join(VARIANTS[0][1].platforms)
     return f"""# APNC {apnc_core.__version__}: ready-made FMUs
 
 The adaptive neural controller of a legged robot. No file needs Python or anything else that is not
@@ -70,8 +75,9 @@ are for tools that stumble over brackets or turn them into buses.
 |---|---|---|---|
 {table}
 
-Each holds binaries for {platforms} (glibc 2.17, Windows 10, macOS 10.15 and 11, or newer), its C
-sources, `documentation/index.html` on every variable, and the FMI 2.0 ones an experiment to check
-an import with. The defaults are those of the quadruped Lilibot: set `robot_weight` [N] first.
+Each holds binaries for {", ".join(platforms)} (glibc 2.17, Windows 10,
+macOS 10.15 and 11, or newer), its C sources, `documentation/index.html` on every variable, and the
+FMI 2.0 ones an experiment to check an import with. The defaults are those of the quadruped
+Lilibot: set `robot_weight` [N] first.
 `sha256sum -c SHA256SUMS` checks the files.
 """

@@ -27,7 +27,8 @@ from build_fmu.platforms import library_of
 path, ours = sys.argv[1], sys.argv[2] == "library_of"
 description = fmpy.read_model_description(path, validate=False)
 reference = {v.name: v.valueReference for v in description.modelVariables}
-loads, hips = ([reference[f"leg[{i}].{name}"] for i in range(1, 5)] for name in ("grf", "theta_hip"))
+loads = [reference[f"leg[{i}].grf"] for i in range(1, 5)]
+hips = [reference[f"leg[{i}].theta_hip"] for i in range(1, 5)]
 folder = fmpy.extract(path)
 chosen = {"libraryPath": str(library_of(Path(folder)))} if ours else {}
 fmu = FMU2Slave(

@@ -96,7 +96,8 @@ def test_they_are_named_and_part_of_guid_and_key() -> None:
             roots.append(etree.fromstring(archive.read("modelDescription.xml")))
     assert len({root.get("guid") for root in roots}) == len(builds)
     assert len({build_key(options) for options in builds}) == len(builds)
-    assert roots[1].get("description").endswith(
+    said = roots[1].get("description")
+    assert said.endswith(
         "starts with preset paper, B_s = 1e-05, N = 40, Ts = 0.01, method = tegotae, "
         "phi_stored = 3 0.1 -3, robot_weight = 60, stored = true"
     )

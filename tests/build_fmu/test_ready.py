@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import pytest
 
 from build_fmu import build, compile, sources
 from build_fmu.build import build_key, cached_fmu, host_fmu
-from build_fmu.options import BuildError, BuildOptions, host_platform
+from build_fmu.options import PLATFORMS, BuildError, BuildOptions, host_platform
 
 ROOT = Path(__file__).resolve().parents[2]
 HOST = BuildOptions(platforms=(host_platform(),))
@@ -97,10 +98,14 @@ def test_a_wheel_for_this_machine_carries_its_fmus(
             assert f"leg[{legs + 1}].grf".encode() not in archive.read("modelDescription.xml")
 
 
-def test_a_wheel_for_all_platforms_is_for_any(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    wheel_of = pytest.importorskip("hatchling.builders.wheel").WheelBuilder
-    monkeypatch.setenv("APNC_WHEEL_PLATFORMS", "all")
-    (wheel,) = wheel_of(str(ROOT)).build(directory=str(tmp_path), versions=["standard"])
-    assert Path(wheel).name.endswith("-py3-none-any.whl")
+def test_the_tag_says_where_the_binaries_run() -> None:
+    pytest.importorskip("hatchling")
+    spec = importlib.util.spec_from_file_location("hatch_build", ROOT / "hatch_build.py")
+    assert spec and spec.loader
+    hook = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(hook)
+    assert set(hook.WHEEL_TAGS) == set(PLATFORMS)
+    assert hook.wheel_tag(tuple(PLATFORMS)) == hook.wheel_tag(()) == "py3-none-any"
+    assert hook.wheel_tag(("win64",)) == "py3-none-win_amd64"
+    two = hook.wheel_tag(("linux64", "aarch64-linux"))
+    assert two == "py3-none-linux_x86_64.linux_aarch64"

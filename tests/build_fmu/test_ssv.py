@@ -76,7 +76,10 @@ def test_a_file_of_another_tool_is_read(tmp_path: Path) -> None:
         ("no xml", "a.ssv is not an SSV file"),
         ("<a/>", "its root is a"),
         (ssv('<Parameter name="cow"><Real value="1"/></Parameter>'), "parameter 'cow' is not one"),
-        (ssv('<Parameter name="xi"><Real value="2"/></Parameter>'), r"xi = 2.0 is not in 0 \.\.\. 1"),
+        (
+            ssv('<Parameter name="xi"><Real value="2"/></Parameter>'),
+            r"xi = 2.0 is not in 0 \.\.\. 1",
+        ),
         (ssv('<Parameter name="xi"><Real value="x"/></Parameter>'), "xi = 'x' is not a number"),
         (ssv('<Parameter name="xi"><Real value="0" unit="deg"/></Parameter>'), "unit 'deg' of xi"),
         (ssv('<Parameter name="xi"/>'), "xi has no number"),
