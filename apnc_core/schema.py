@@ -9,7 +9,7 @@ from typing import Final
 from apnc_core.enumerations import Enumeration
 
 VR_STRIDE: Final = 100
-"""Value reference = VR_STRIDE * row of the table + element, the same for any number of legs."""
+"""Value reference = VR_STRIDE * number of the row + element, the same for any number of legs."""
 
 VR_TIME: Final = 9900
 """Value reference of the independent variable, which FMI 3.0 wants; beyond all rows."""

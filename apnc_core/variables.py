@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from apnc_core.enumerations import ENUMERATIONS, CouplingSign, KappaRule, Method, PhaseMeasure
+from apnc_core.row_numbers import ROW_NUMBERS
 from apnc_core.schema import MAX_LEGS, VR_STRIDE, Causality, Shape, Type, Variable
 
 N_WINDOW_MAX: Final = 256
@@ -319,11 +320,20 @@ def scalars(n_legs: int = 4, naming: str = "structured") -> Iterator[Scalar]:
         raise ValueError(f"number of legs {n_legs} is not in 2 ... {MAX_LEGS}")
     if naming not in ("structured", "flat"):
         raise ValueError(f"naming '{naming}' is not structured or flat")
-    for row, variable in enumerate(TABLE):
+    for variable in TABLE:
+        first = value_reference(variable.name)
         for element in range(variable.count(n_legs)):
-            yield Scalar(
-                variable, element, VR_STRIDE * row + element, variable.scalar_name(element, naming)
-            )
+            name = variable.scalar_name(element, naming)
+            yield Scalar(variable, element, first + element, name)
+
+
+def value_reference(name: str) -> int:
+    """Value reference of the first entry of the row called ``name``.
+
+    Raises:
+        KeyError: a row without a number: ``python -m build_fmu.generate`` gives it one.
+    """
+    return VR_STRIDE * ROW_NUMBERS[name]
 
 
 def rows(causality: Causality) -> tuple[Variable, ...]:

@@ -1,27 +1,32 @@
-"""Build an FMU: describe, configure, compile, package; with a cache of finished builds."""
+"""Build an FMU: describe, configure, compile, package; ready-made FMUs and a cache of builds."""
 
 from __future__ import annotations
 
 import hashlib
-import importlib.metadata
 import importlib.resources
-import os
 import tempfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
-
-import platformdirs
+from typing import Final
 
 import apnc_core
 from build_fmu import sources
-from build_fmu.compile import compile_library
+from build_fmu.cache import cache_folder, write_atomically
+from build_fmu.compile import compile_library, compiler_version
 from build_fmu.documentation import documentation
 from build_fmu.model_description import model_description
 from build_fmu.model_description_fmi3 import build_description, model_description_fmi3
-from build_fmu.options import MODEL, PLATFORMS, BuildOptions, host_platform
+from build_fmu.options import BuildOptions
 from build_fmu.package import zip_fmu
+from build_fmu.platforms import MODEL, PLATFORMS, BuildError, host_platform, placed
+
+__all__ = ["build_key", "cache_folder", "cached_fmu", "fmu_bytes", "host_fmu", "write_atomically"]
 
 Progress = Callable[[str], None]
+
+READY: Final = Path(__file__).parent / "ready"
+"""FMUs that came with the installed package, each named by the key of its build."""
 
 
 def fmu_bytes(
@@ -52,14 +57,11 @@ def fmu_bytes(
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
             (Path(folder) / name).write_bytes(text)
+        libraries = {}
         for name in options.platforms:
             progress(name)
-            platform = PLATFORMS[name]
-            library = compile_library(Path(folder), c_files, platform)
-            content[f"binaries/{platform.folder_for(options.fmi)}/{MODEL}{platform.suffix}"] = (
-                library
-            )
-    return zip_fmu(content)
+            libraries[name] = compile_library(Path(folder), c_files, PLATFORMS[name])
+    return zip_fmu(content | placed(libraries, options.fmi))
 
 
 def _describe(options: BuildOptions, c_files: list[str], guid: str) -> bytes:
@@ -68,21 +70,21 @@ def _describe(options: BuildOptions, c_files: list[str], guid: str) -> bytes:
     return model_description(options, c_files, guid)
 
 
-def cache_folder() -> Path:
-    """Where finished builds are kept; ``APNC_CACHE`` overrides the user's cache folder."""
-    return Path(os.environ.get("APNC_CACHE") or platformdirs.user_cache_dir("apnc"))
+def build_key(options: BuildOptions) -> str:
+    """What a build is made from, but for the compiler and the headers of the standard: 16 digits.
 
+    Args:
+        options: what to build.
 
-def _cache_key(options: BuildOptions) -> str:
+    An FMU that carries the key is true to the options and to this package's own sources.
+    """
     parts = [
         repr(options).encode(),
         apnc_core.__version__.encode(),
-        importlib.metadata.version("ziglang").encode(),
         *_files_of("build_fmu"),
         *_files_of("apnc_core"),
         repr([PLATFORMS[name] for name in options.platforms]).encode(),
-        _describe(options, [], ""),
-        *sources.collect(options.fmi).values(),
+        *sources.own_files(options.fmi).values(),
     ]
     return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16]
 
@@ -97,30 +99,50 @@ def _files_of(package: str) -> list[bytes]:
 
 
 def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None) -> Path:
-    """Path of the FMU in the cache, built if it is not there yet.
+    """Path of a finished FMU: one that came with the package, or from the cache, or built now.
 
     Args:
         options: what to build.
         progress: called with the platform that is compiled next, if anything is compiled.
 
     Raises:
-        BuildError: the compiler failed.
+        BuildError: the compiler failed, or it is needed and not installed.
         OSError: the cache folder cannot be written.
     """
-    path = cache_folder() / _cache_key(options) / f"{MODEL}.fmu"
+    key = build_key(options)
+    ready = READY / f"{key}.fmu"
+    if ready.is_file():
+        return ready
+    path = cache_folder() / f"{key}-{compiler_version() or 'none'}" / f"{MODEL}.fmu"
     if not path.is_file():
+        if options.platforms and not compiler_version():
+            raise BuildError(_no_compiler())
         write_atomically(path, fmu_bytes(options, progress))
     return path
 
 
+def _no_compiler() -> str:
+    ready = len(list(READY.glob("*.fmu")))
+    return (
+        f"this FMU is not among the {ready} that came with the package (4 and 6 legs, FMI 2, "
+        "defaults), or the sources were changed since, and the compiler is not installed: "
+        'pip install "apnc[build]"'
+    )
+
+
 def host_fmu(legs: int = 4, fmi: int = 2) -> Path:
-    """Path of the cached FMU with the binary of this machine only."""
-    return cached_fmu(BuildOptions(legs=legs, platforms=(host_platform(),), fmi=fmi))
+    """Path of an FMU with its defaults and a binary for this machine.
 
+    Args:
+        legs: number of legs.
+        fmi: version of the standard, 2 or 3.
 
-def write_atomically(path: Path, content: bytes) -> None:
-    """Write so that a reader, or a second build, never sees half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.{os.getpid()}.part")
-    part.write_bytes(content)
-    part.replace(path)
+    Raises:
+        BuildError: as ``cached_fmu``.
+        OSError: the cache folder cannot be written.
+    """
+    options = BuildOptions(legs=legs, fmi=fmi)
+    everywhere = READY / f"{build_key(options)}.fmu"
+    if everywhere.is_file():
+        return everywhere
+    return cached_fmu(replace(options, platforms=(host_platform(),)))

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import importlib.metadata
+import os
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 from typing import Final
 
-from build_fmu.options import MODEL, BuildError, Platform
+from build_fmu.cache import cache_folder
+from build_fmu.platforms import MODEL, BuildError, Platform
 
 FLAGS: Final = (
     "-std=c11",
@@ -24,6 +27,14 @@ FLAGS: Final = (
     "-Werror",
 )
 _LINUX_FLAGS: Final = ("-fPIC", "-Wl,-z,defs", "-lm")
+
+
+def compiler_version() -> str:
+    """Version of the installed compiler; empty if there is none."""
+    try:
+        return importlib.metadata.version("ziglang")
+    except importlib.metadata.PackageNotFoundError:
+        return ""
 
 
 def _platform_flags(platform: Platform) -> tuple[str, ...]:
@@ -43,8 +54,12 @@ def compile_library(folder: Path, c_files: list[str], platform: Platform) -> byt
         platform: what to compile for.
 
     Raises:
-        BuildError: the compiler failed; the message carries what it said.
+        BuildError: the compiler failed, and the message carries what it said; or there is none.
     """
+    if not compiler_version():
+        raise BuildError('the compiler is not installed: pip install "apnc[build]"')
+    # the compiler's own run time is built once per platform and kept beside the FMUs
+    caches = {"ZIG_GLOBAL_CACHE_DIR": str(cache_folder() / "zig")}
     with tempfile.TemporaryDirectory() as out:
         library = Path(out) / (MODEL + platform.suffix)
         command = [
@@ -52,7 +67,14 @@ def compile_library(folder: Path, c_files: list[str], platform: Platform) -> byt
             *("-shared", "-s", *FLAGS, *_platform_flags(platform)),
             *("-I.", *c_files, "-o", str(library)),
         ]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            command,
+            cwd=folder,
+            env=caches | os.environ,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         if done.returncode != 0:
             raise BuildError(f"compiler failed for {platform.folder}:\n{done.stderr.strip()}")
         return library.read_bytes()

@@ -8,7 +8,7 @@ from lxml import etree
 
 import apnc_core
 from apnc_core.schema import Causality, Type, Variable
-from apnc_core.variables import row
+from build_fmu.options import BuildOptions
 
 UNITS: Final[dict[str, dict[str, str]]] = {
     "1": {},
@@ -29,7 +29,6 @@ LOG_CATEGORIES: Final = {
     "logEvents": "life of the instance",
 }
 ABOUT: Final = {
-    "description": "Adaptive neural controller of a legged robot: self-organised, memorised gaits",
     "author": "The APNC developers",
     "version": apnc_core.__version__,
     "copyright": "(c) 2026 The APNC developers",
@@ -37,6 +36,15 @@ ABOUT: Final = {
     "generationTool": f"apnc {apnc_core.__version__}",
 }
 STOP_TIME: Final = "45"
+_DESCRIPTION: Final = (
+    "Adaptive neural controller of a legged robot: self-organised, memorised gaits"
+)
+
+
+def about(options: BuildOptions) -> str:
+    """What the FMU is, and with which start values of its own."""
+    own = options.own_defaults()
+    return f"{_DESCRIPTION}; starts with {own}" if own else _DESCRIPTION
 
 
 def number(value: float | int | bool | None) -> str:
@@ -63,9 +71,9 @@ def add_log_categories(root: etree._Element) -> None:
         etree.SubElement(categories, "Category", name=name, description=description)
 
 
-def add_experiment(root: etree._Element) -> None:
+def add_experiment(root: etree._Element, options: BuildOptions) -> None:
     """Append DefaultExperiment with the controller's tick as step size."""
-    step = number(row("Ts").start)
+    step = number(options.parameters().Ts)
     etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime=STOP_TIME, stepSize=step)
 
 
@@ -76,9 +84,18 @@ def initial(v: Variable) -> dict[str, str]:
     return {"initial": "exact" if v.causality is Causality.parameter else "calculated"}
 
 
-def typed_attributes(v: Variable) -> dict[str, str]:
+def type_of(v: Variable, options: BuildOptions) -> Type:
+    """FMI type of a row: an enumeration becomes an integer where the build says so."""
+    if v.enumeration and options.enumerations == "integer":
+        return Type.integer
+    return v.type
+
+
+def typed_attributes(v: Variable, options: BuildOptions) -> dict[str, str]:
     """Declared type, units and range."""
     attributes: dict[str, str] = {}
+    if v.enumeration and type_of(v, options) is Type.integer:
+        return {"min": "1", "max": str(len(v.enumeration.items))}
     if v.enumeration:
         attributes["declaredType"] = v.enumeration.name
     elif v.type is Type.real:

@@ -11,11 +11,11 @@ from markupsafe import Markup
 
 import apnc_core
 from apnc_core.legs import leg_names
-from apnc_core.schema import Causality, Shape, Variable
+from apnc_core.schema import Causality, Shape, Value, Variable
 from apnc_core.variables import rows
 from build_fmu.icon import icon_png
-from build_fmu.options import MODEL, BuildOptions
-from build_fmu.reference import FOLDER, STOP_TIME, TOLERANCE, reference_files
+from build_fmu.options import MODEL, BuildOptions, Setting, in_words
+from build_fmu.reference import FOLDER, TICKS, TOLERANCE, reference_files
 
 _GREEK: Final = {
     name: chr(code)
@@ -47,7 +47,8 @@ def documentation(options: BuildOptions) -> dict[str, bytes]:
 
 def _page(options: BuildOptions) -> str:
     env = Environment(loader=PackageLoader("build_fmu"), undefined=StrictUndefined, autoescape=True)
-    env.filters |= {"symbol": _symbol, "start": _start, "span": _span, "entry": _entry(options)}
+    env.filters |= {"symbol": _symbol, "paper": _paper, "span": _span, "entry": _entry(options)}
+    env.filters["start"] = lambda v: in_words(v.name, _alike(options.start(v)))
     names = leg_names(options.legs)
     return env.get_template("documentation.html.j2").render(
         model=MODEL,
@@ -55,6 +56,7 @@ def _page(options: BuildOptions) -> str:
         legs=options.legs,
         leg_names=names,
         right=options.legs // 2,
+        own_defaults=options.own_defaults(),
         fmi="2.0" if options.fmi == 2 else "3.0",
         inputs=rows(Causality.input),
         outputs=rows(Causality.output),
@@ -62,7 +64,8 @@ def _page(options: BuildOptions) -> str:
         parameters=rows(Causality.parameter),
         enumerations=[v for v in rows(Causality.parameter) if v.enumeration],
         reference_folder=FOLDER if options.fmi == 2 else "",
-        reference_stop=STOP_TIME,
+        reference_stop=f"{TICKS * options.parameters().Ts:g}",
+        reference_step=f"{options.parameters().Ts:g}",
         reference_tolerance=f"{TOLERANCE:g}",
     )
 
@@ -87,12 +90,12 @@ def _symbol(text: str) -> Markup:
     return Markup(re.sub(r"\^(\w+)", r"<sup>\1</sup>", text))
 
 
-def _start(v: Variable, value: float | int | bool | None) -> str:
-    if value is None:
-        return ""
-    if v.enumeration:
-        return v.enumeration.items(int(value)).name
-    return str(value).lower() if isinstance(value, bool) else f"{value:.6g}"
+def _alike(values: tuple[Value, ...]) -> Setting:
+    return values[0] if len(set(values)) == 1 else values
+
+
+def _paper(v: Variable) -> str:
+    return "" if v.paper is None else in_words(v.name, v.paper)
 
 
 def _span(v: Variable) -> str:

@@ -12,6 +12,7 @@ from typing import Final
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from apnc_core.enumerations import ENUMERATIONS
+from apnc_core.row_numbers import ROW_NUMBERS
 from apnc_core.schema import MAX_LEGS, VR_STRIDE, VR_TIME, Causality, Shape, Type, Variable
 from apnc_core.variables import N_WINDOW_MAX, TABLE, rows
 
@@ -22,6 +23,7 @@ TARGETS: Final = {
     "apnc_variables.h.j2": "fmu_src/core/apnc_variables.h",
     "apnc_variables.c.j2": "fmu_src/core/apnc_variables.c",
     "variables.md.j2": "docs/variables.md",
+    "row_numbers.py.j2": "apnc_core/row_numbers.py",
 }
 
 _C_GROUP: Final = {
@@ -92,8 +94,10 @@ def c_unit(v: Variable) -> str:
     return unit + (f"Eq. {v.equation}: " if v.equation else "")
 
 
-def c_row(v: Variable) -> str:
-    """Initialiser of one entry of ``apnc_rows``."""
+def c_row(v: Variable | None) -> str:
+    """Initialiser of one entry of ``apnc_rows``; without entries for a row that is no more."""
+    if v is None:
+        return '{"", "", "", 0, 0, APNC_REAL, APNC_LOCAL, 0.0, 1.0, -1.0}'
     names = {Shape.scalar: f'"{v.name}", ""', Shape.leg: f'LEG("{v.name}")'}
     names[Shape.relation] = f'RELATION("{v.name}")'
     count = {Shape.scalar: "1", Shape.leg: "APNC_LEGS", Shape.relation: "APNC_RELATIONS"}
@@ -106,6 +110,14 @@ def c_row(v: Variable) -> str:
         f'{{"{v.name}", {names[v.shape]}, AT({_C_GROUP[v.causality]}, {v.name}), '
         f"{count[v.shape]}, APNC_{v.type.name.upper()}, APNC_{role.upper()}, {values}}}"
     )
+
+
+def row_numbers() -> dict[str, int]:
+    """Numbers of the rows: those that were given once stay, a new row gets the next one."""
+    numbers = dict(ROW_NUMBERS)
+    for v in TABLE:
+        numbers.setdefault(v.name, len(numbers))
+    return numbers
 
 
 def limits(v: Variable) -> tuple[float, float]:
@@ -164,6 +176,7 @@ def _environment() -> Environment:
         "md_range": _md_range,
         "md_type": _md_type,
         "md_unit": _md_unit,
+        "md_reference": lambda v: VR_STRIDE * row_numbers()[v.name],
     }
     return env
 
@@ -172,8 +185,10 @@ def render() -> dict[str, str]:
     """Text of every generated file by its path from the project's root."""
     inputs, parameters = rows(Causality.input), rows(Causality.parameter)
     outputs, local = rows(Causality.output), rows(Causality.local)
+    numbers, known = row_numbers(), {v.name: v for v in TABLE}
     context = {
-        "table": TABLE,
+        "numbers": numbers,
+        "table": [known.get(name) for name in numbers],
         "inputs": inputs,
         "parameters": parameters,
         "outputs": outputs + local,

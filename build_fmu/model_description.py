@@ -11,11 +11,13 @@ from apnc_core.variables import Scalar, row, scalars
 from build_fmu.description_parts import (
     ABOUT,
     REAL_TYPES,
+    about,
     add_experiment,
     add_log_categories,
     add_units,
     initial,
     number,
+    type_of,
     typed_attributes,
 )
 from build_fmu.options import MODEL, BuildOptions
@@ -34,6 +36,7 @@ def model_description(options: BuildOptions, c_files: list[str], guid: str) -> b
         fmiVersion="2.0",
         modelName=MODEL,
         guid=guid,
+        description=about(options),
         **ABOUT,
         variableNamingConvention="structured" if options.naming == "structured" else "flat",
         numberOfEventIndicators="0",
@@ -42,11 +45,11 @@ def model_description(options: BuildOptions, c_files: list[str], guid: str) -> b
     add_units(root)
     _types(etree.SubElement(root, "TypeDefinitions"))
     add_log_categories(root)
-    add_experiment(root)
+    add_experiment(root, options)
     members = list(scalars(options.legs, options.naming))
     variables = etree.SubElement(root, "ModelVariables")
     for member in members:
-        _scalar_variable(variables, member, leg_names(options.legs))
+        _scalar_variable(variables, member, options)
     _structure(etree.SubElement(root, "ModelStructure"), members)
     text: bytes = etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8")
     return text
@@ -81,21 +84,22 @@ def _types(parent: etree._Element) -> None:
             )
 
 
-def _scalar_variable(parent: etree._Element, member: Scalar, legs: tuple[str, ...]) -> None:
+def _scalar_variable(parent: etree._Element, member: Scalar, options: BuildOptions) -> None:
     v = member.variable
+    kind = type_of(v, options)
     element = etree.SubElement(
         parent,
         "ScalarVariable",
         name=member.name,
         valueReference=str(member.value_reference),
-        description=_description(v, member.element, legs),
+        description=_description(v, member.element, leg_names(options.legs)),
         causality=v.causality.value,
         variability=v.variability,
         **initial(v),
     )
-    typed = etree.SubElement(element, v.type.value, **typed_attributes(v))
-    if v.start is not None:
-        typed.set("start", number(v.start))
+    typed = etree.SubElement(element, kind.value, **typed_attributes(v, options))
+    for value in options.start(v)[member.element : member.element + 1]:
+        typed.set("start", number(value))
 
 
 def _description(v: Variable, element: int, legs: tuple[str, ...]) -> str:

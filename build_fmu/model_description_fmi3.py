@@ -7,16 +7,18 @@ from typing import Final
 from lxml import etree
 
 from apnc_core.enumerations import ENUMERATIONS
-from apnc_core.schema import VR_STRIDE, VR_TIME, Causality, Shape, Type, Variable
-from apnc_core.variables import TABLE
+from apnc_core.schema import VR_TIME, Causality, Shape, Type, Variable
+from apnc_core.variables import TABLE, value_reference
 from build_fmu.description_parts import (
     ABOUT,
     REAL_TYPES,
+    about,
     add_experiment,
     add_log_categories,
     add_units,
     initial,
     number,
+    type_of,
     typed_attributes,
 )
 from build_fmu.options import MODEL, BuildOptions
@@ -41,6 +43,7 @@ def model_description_fmi3(options: BuildOptions, token: str) -> bytes:
         fmiVersion="3.0",
         modelName=MODEL,
         instantiationToken=token,
+        description=about(options),
         **ABOUT,
         variableNamingConvention="structured",
     )
@@ -55,7 +58,7 @@ def model_description_fmi3(options: BuildOptions, token: str) -> bytes:
     add_units(root)
     _add_types(etree.SubElement(root, "TypeDefinitions"))
     add_log_categories(root)
-    add_experiment(root)
+    add_experiment(root, options)
     variables = etree.SubElement(root, "ModelVariables")
     etree.SubElement(
         variables,
@@ -67,8 +70,8 @@ def model_description_fmi3(options: BuildOptions, token: str) -> bytes:
         variability="continuous",
         unit="s",
     )
-    for position, variable in enumerate(TABLE):
-        _add_variable(variables, variable, position, options.legs)
+    for variable in TABLE:
+        _add_variable(variables, variable, options)
     _add_structure(etree.SubElement(root, "ModelStructure"))
     text: bytes = etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8")
     return text
@@ -86,10 +89,9 @@ def build_description(c_files: list[str]) -> bytes:
 
 
 def _add_types(parent: etree._Element) -> None:
-    for unit, (name, description, quantity) in REAL_TYPES.items():
-        real = etree.SubElement(
-            parent, "Float64Type", name=name, description=description, unit=unit
-        )
+    """No ``description`` on a type: FMPy up to 0.3.22 takes it for an unknown argument."""
+    for unit, (name, _, quantity) in REAL_TYPES.items():
+        real = etree.SubElement(parent, "Float64Type", name=name, unit=unit)
         if quantity:
             real.set("quantity", quantity)
     for enumeration in ENUMERATIONS:
@@ -100,27 +102,27 @@ def _add_types(parent: etree._Element) -> None:
             )
 
 
-def _add_variable(parent: etree._Element, v: Variable, position: int, legs: int) -> None:
+def _add_variable(parent: etree._Element, v: Variable, options: BuildOptions) -> None:
     element = etree.SubElement(
         parent,
-        _TAGS[v.type],
+        _TAGS[type_of(v, options)],
         name=v.name,
-        valueReference=str(VR_STRIDE * position),
+        valueReference=str(value_reference(v.name)),
         description=v.description,
         causality=v.causality.value,
         variability=v.variability,
         **initial(v),
-        **typed_attributes(v),
+        **typed_attributes(v, options),
     )
-    if v.start is not None:
-        element.set("start", " ".join([number(v.start)] * v.count(legs)))
+    if start := options.start(v):
+        element.set("start", " ".join(map(number, start)))
     if v.shape is not Shape.scalar:
-        etree.SubElement(element, "Dimension", start=str(v.count(legs)))
+        etree.SubElement(element, "Dimension", start=str(v.count(options.legs)))
 
 
 def _add_structure(parent: etree._Element) -> None:
     """Outputs change at ticks only, so none depends on an input at the same instant."""
-    reference = {v.name: str(VR_STRIDE * position) for position, v in enumerate(TABLE)}
+    reference = {v.name: str(value_reference(v.name)) for v in TABLE}
     outputs = [v for v in TABLE if v.causality is Causality.output]
     for v in outputs:
         etree.SubElement(parent, "Output", valueReference=reference[v.name], dependencies="")

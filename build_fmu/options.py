@@ -2,69 +2,24 @@
 
 from __future__ import annotations
 
-import platform
-import sys
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any, Final
 
-from apnc_core.schema import MAX_LEGS
+from apnc_core.interface import Parameters
+from apnc_core.presets import PRESETS, preset
+from apnc_core.schema import MAX_LEGS, Causality, Shape, Type, Value, Variable
+from apnc_core.variables import TABLE, row, rows
+from build_fmu.platforms import MODEL, PLATFORMS, BuildError, Platform, host_platform
 
-MODEL: Final = "Apnc"
+__all__ = ["MODEL", "PLATFORMS", "BuildError", "BuildOptions", "Platform", "host_platform"]
+
 FMI_VERSIONS: Final = (2, 3)
 NAMINGS: Final = ("structured", "flat")
+ENUMERATIONS_AS: Final = ("enumeration", "integer")
 
-
-@dataclass(frozen=True)
-class Platform:
-    """A platform a binary can be built for: its folders in the FMU and how zig calls it.
-
-    ``folder`` is the name of FMI 2.0.5, ``tuple`` that of FMI 3.0.
-    """
-
-    folder: str
-    tuple: str
-    zig_target: str
-    suffix: str
-
-    def folder_for(self, fmi: int) -> str:
-        """Name of the folder below ``binaries/`` in that version of FMI."""
-        return self.folder if fmi == 2 else self.tuple
-
-
-PLATFORMS: Final[dict[str, Platform]] = {
-    p.folder: p
-    for p in (
-        Platform("linux64", "x86_64-linux", "x86_64-linux-gnu.2.17", ".so"),
-        Platform("aarch64-linux", "aarch64-linux", "aarch64-linux-gnu.2.17", ".so"),
-        Platform("win64", "x86_64-windows", "x86_64-windows-gnu", ".dll"),
-        Platform("darwin64", "x86_64-darwin", "x86_64-macos.10.15", ".dylib"),
-        Platform("aarch64-darwin", "aarch64-darwin", "aarch64-macos.11.0", ".dylib"),
-    )
-}
-
-
-class BuildError(ValueError):
-    """A build that cannot be made, in one line."""
-
-
-def host_platform() -> str:
-    """Folder name of the platform this Python runs on.
-
-    Raises:
-        BuildError: no binary can be built for it.
-    """
-    machine = platform.machine().lower()
-    arm = machine in ("arm64", "aarch64")
-    names = {
-        "linux": "aarch64-linux" if arm else "linux64",
-        "darwin": "aarch64-darwin" if arm else "darwin64",
-        "win32": "win64",
-    }
-    if sys.platform not in names or not (arm or machine in ("x86_64", "amd64")):
-        raise BuildError(
-            f"platform {sys.platform} on {machine} is not one of {', '.join(PLATFORMS)}"
-        )
-    return names[sys.platform]
+Setting = Value | str | Sequence[float]
+"""A value of a parameter: a number, a flag, an item of an enumeration by name, or one per entry."""
 
 
 @dataclass(frozen=True)
@@ -77,6 +32,11 @@ class BuildOptions:
             the entries of a row are an array and both are alike.
         platforms: names (FMI 2.0.5 folders) of the binaries to include; empty for sources only.
         fmi: version of the standard, 2 or 3.
+        preset: set of parameters that the FMU starts with.
+        settings: start values by parameter name, in place of those of the preset and the memory.
+        memory: relations phi_1k [rad], legs - 1 of them, that the FMU starts with as learned
+            (``stored`` and ``phi_stored``); empty: none.
+        enumerations: ``enumeration``, or ``integer`` for importers that drop enumerations.
 
     Raises:
         BuildError: a value outside what is allowed.
@@ -86,15 +46,110 @@ class BuildOptions:
     naming: str = "structured"
     platforms: tuple[str, ...] = tuple(PLATFORMS)
     fmi: int = 2
+    preset: str = "lilibot"
+    settings: Mapping[str, Setting] = field(default_factory=dict, hash=False)
+    memory: tuple[float, ...] = ()
+    enumerations: str = "enumeration"
 
     def __post_init__(self) -> None:
         """Check the choices."""
         if not 2 <= self.legs <= MAX_LEGS:
             raise BuildError(f"legs = {self.legs} is not in 2 ... {MAX_LEGS}")
-        if self.naming not in NAMINGS:
-            raise BuildError(f"naming '{self.naming}' is not one of {', '.join(NAMINGS)}")
+        for name, value, allowed in (
+            ("naming", self.naming, NAMINGS),
+            ("preset", self.preset, PRESETS),
+            ("enumerations", self.enumerations, ENUMERATIONS_AS),
+            *(("platform", p, tuple(PLATFORMS)) for p in self.platforms),
+        ):
+            if value not in allowed:
+                raise BuildError(f"{name} '{value}' is not one of {', '.join(allowed)}")
         if self.fmi not in FMI_VERSIONS:
             raise BuildError(f"fmi = {self.fmi} is not one of 2, 3")
-        for name in self.platforms:
-            if name not in PLATFORMS:
-                raise BuildError(f"platform '{name}' is not one of {', '.join(PLATFORMS)}")
+        chosen: dict[str, Setting] = {}
+        if self.memory:
+            chosen = {"stored": True, "phi_stored": tuple(self.memory)}
+        own = {name: checked(name, value) for name, value in (chosen | dict(self.settings)).items()}
+        phi = own.get("phi_stored", ())
+        if isinstance(phi, tuple) and len(phi) not in (0, self.legs - 1):
+            raise BuildError(
+                f"phi_stored has {len(phi)} values; {self.legs} legs take {self.legs - 1}"
+            )
+        object.__setattr__(self, "settings", dict(sorted(own.items())))
+        object.__setattr__(self, "memory", ())
+
+    def parameters(self) -> Parameters:
+        """The parameters that the FMU starts with."""
+        values = {f.name: getattr(preset(self.preset), f.name) for f in fields(Parameters)}
+        return Parameters(**(values | dict(self.settings)))
+
+    def start(self, v: Variable) -> tuple[Value, ...]:
+        """Start values of a row, one per entry; empty for an output."""
+        if v.start is None:
+            return ()
+        value: Value | tuple[float, ...] = v.start
+        if v.causality is Causality.parameter:
+            value = getattr(self.parameters(), v.name)
+        if not isinstance(value, tuple):
+            return (value,) * v.count(self.legs)
+        return value or (v.start,) * v.count(self.legs)
+
+    def changed(self) -> list[Variable]:
+        """The rows whose start values are not those of the table."""
+        return [v for v in TABLE if set(self.start(v)) - {v.start}]
+
+    def own_defaults(self) -> str:
+        """The start values that differ from those of the table, in words; empty if none do."""
+        parts = [] if self.preset == BuildOptions.preset else [f"preset {self.preset}"]
+        parts += [f"{name} = {in_words(name, value)}" for name, value in self.settings.items()]
+        return ", ".join(parts)
+
+
+def in_words(name: str, value: Setting) -> str:
+    """A value of a parameter as a person reads it: items by name, true and false in lower case."""
+    enumeration = row(name).enumeration
+    if isinstance(value, Sequence):
+        return " ".join(f"{x:.6g}" for x in value)
+    if enumeration:
+        return enumeration.items(int(value)).name
+    return str(value).lower() if isinstance(value, bool) else f"{value:.6g}"
+
+
+def checked(name: str, value: Setting) -> Setting:
+    """The value in the type of its row.
+
+    Raises:
+        BuildError: no such parameter, or a value of another type or outside the range.
+    """
+    known = {v.name: v for v in rows(Causality.parameter)}
+    if name not in known:
+        raise BuildError(f"parameter '{name}' is not one of {', '.join(known)}")
+    v = known[name]
+    if v.shape is not Shape.scalar:
+        if not isinstance(value, Sequence):
+            raise BuildError(f"{name} = {value} is not a list of numbers")
+        return tuple(float(_number(v, x)) for x in value)
+    if v.enumeration and isinstance(value, str):
+        if value not in v.enumeration.items.__members__:
+            allowed = ", ".join(v.enumeration.items.__members__)
+            raise BuildError(f"{name} = '{value}' is not one of {allowed}")
+        return v.enumeration.items[value]
+    if isinstance(value, Sequence):
+        raise BuildError(f"{name} = {value} is not one value")
+    if v.type is Type.boolean:
+        if value not in (0, 1):
+            raise BuildError(f"{name} = {value} is not true or false")
+        return bool(value)
+    return _number(v, value)
+
+
+def _number(v: Variable, value: Any) -> float | int:
+    low, high = (1, len(v.enumeration.items)) if v.enumeration else (v.min, v.max)
+    assert low is not None and high is not None
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not number or not low <= value <= high:  # NaN is in no range
+        raise BuildError(f"{v.name} = {value} is not in {low:g} ... {high:g}")
+    if v.type is Type.real:
+        return float(value)
+    if value != int(value):
+        raise BuildError(f"{v.name} = {value} is not a whole number")
+    return v.enumeration.items(int(value)) if v.enumeration else int(value)

@@ -6,6 +6,7 @@ reference of the controller, not from the binaries they are there to check.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -18,49 +19,57 @@ from apnc_core.variables import Scalar, scalars
 from build_fmu.options import BuildOptions
 
 FOLDER: Final = "extra/org.fmi-standard.fmi-ls-ref"
-STOP_TIME: Final = 10
+TICKS: Final = 960
+"""Length of the experiment: 16 s at 60 Hz."""
 TOLERANCE: Final = 1e-6
 """Results are written with six decimals, so that they do not depend on who computes them."""
 
 _LS: Final = "http://fmi-standard.org/fmi-ls-manifest"
 _TICKS_PER_S: Final = 60
 _STRIDE_HZ: Final = 1.2
-_RESULTS: Final = ("theta_hip", "theta_knee", "gamma", "grf_expected", "phi", "d", "kappa", "tick")
+_STEERED_S: Final = (6, 8)
+_LIFTED_S: Final = (9, 12.5)
+"""Without loads the phases rest, so that the couplings switch on; then the robot stands again."""
+_RESULTS: Final = (
+    "theta_hip", "theta_knee", "gamma", "grf_expected", "phi", "g1", "d", "kappa", "tick",
+)  # fmt: skip
 
 
 def reference_files(options: BuildOptions) -> dict[str, bytes]:
     """Manifest, experiment, stimuli and results by their path in the FMU.
 
     Args:
-        options: number of legs and naming; FMI 2.0 only.
+        options: number of legs, naming and start values; FMI 2.0 only.
     """
+    p = options.parameters()
     members = list(scalars(options.legs, options.naming))
     inputs = [m for m in members if m.variable.causality is Causality.input]
     shown = [m for m in members if m.variable.name in _RESULTS]
     stimuli = _stimuli(inputs, options.legs)
     return {
         f"{FOLDER}/fmi-ls-manifest.xml": _manifest(),
-        f"{FOLDER}/experiments.exp": _experiments(),
-        f"{FOLDER}/stimuli.csv": _csv(inputs, stimuli),
-        f"{FOLDER}/results.csv": _csv(shown, _results(inputs, shown, stimuli, options.legs)),
+        f"{FOLDER}/experiments.exp": _experiments(p.Ts),
+        f"{FOLDER}/stimuli.csv": _csv(inputs, stimuli, p.Ts),
+        f"{FOLDER}/results.csv": _csv(shown, _results(p, inputs, shown, stimuli), p.Ts),
     }
 
 
 def _stimuli(inputs: list[Scalar], legs: int) -> list[list[float]]:
-    """Trotting loads, then steering, then a robot lifted off the ground; rounded as written."""
+    """Trotting loads, steering, a robot lifted off the ground and set down; rounded as written."""
     rows = []
-    for n in range(STOP_TIME * _TICKS_PER_S + 1):
+    for n in range(TICKS + 1):
         t = n / _TICKS_PER_S
+        lifted = _LIFTED_S[0] <= t < _LIFTED_S[1]
         row = []
         for m in inputs:
             if m.variable.name == "grf":
                 diagonal = (m.element + (m.element >= (legs + 1) // 2)) % 2
                 lift = np.sin(2 * np.pi * _STRIDE_HZ * t + np.pi * diagonal + 0.1 * m.element)
-                row.append(round(15.0 * max(0.0, float(lift)), 6) if t < STOP_TIME - 1 else 0.0)
+                row.append(0.0 if lifted else round(15.0 * max(0.0, float(lift)), 6))
             elif m.variable.name == "MI":
                 row.append(0.15)
             elif m.variable.name == "turn":
-                row.append(0.5 if 6 <= t < 8 else 0.0)
+                row.append(0.5 if _STEERED_S[0] <= t < _STEERED_S[1] else 0.0)
             else:
                 row.append(0.0)
         rows.append(row)
@@ -68,10 +77,11 @@ def _stimuli(inputs: list[Scalar], legs: int) -> list[list[float]]:
 
 
 def _results(
-    inputs: list[Scalar], shown: list[Scalar], stimuli: list[list[float]], legs: int
+    p: Parameters, inputs: list[Scalar], shown: list[Scalar], stimuli: list[list[float]]
 ) -> list[list[float]]:
     """What is read after each step, the first row before the first step."""
-    controller = Controller(Parameters(), legs)
+    legs = sum(m.variable.name == "grf" for m in inputs)
+    controller = Controller(p, legs)
     place = {(m.variable.name, m.element): i for i, m in enumerate(inputs)}
     grf = [place["grf", leg] for leg in range(legs)]
     rows: list[list[float]] = []
@@ -82,11 +92,8 @@ def _results(
         )
         rows.append(_row(outputs, shown))
     # before the first step the outputs are those of tick 0, which none of the loads has touched
-    start = Controller(Parameters(), legs).tick(Inputs(np.zeros(legs), reset=False))
-    first = _row(start, shown)
-    for i, m in enumerate(shown):
-        if m.variable.name not in ("theta_hip", "theta_knee"):
-            first[i] = 0.0
+    start = Controller(p, legs).tick(Inputs(np.zeros(legs), reset=True))
+    first = _row(replace(start, tick=0), shown)
     return [first, *rows]
 
 
@@ -98,14 +105,14 @@ def _row(outputs: Outputs, shown: list[Scalar]) -> list[float]:
     return values
 
 
-def _csv(members: list[Scalar], rows: list[list[float]]) -> bytes:
+def _csv(members: list[Scalar], rows: list[list[float]], Ts: float) -> bytes:
     lines = [",".join(["time", *(m.name for m in members)])]
     for n, row in enumerate(rows):
         texts = [
             f"{value + 0.0:.6f}" if m.variable.type is Type.real else str(int(value))
             for m, value in zip(members, row, strict=True)
         ]
-        lines.append(",".join([repr(n / _TICKS_PER_S), *texts]))
+        lines.append(",".join([repr(n * Ts), *texts]))
     # minus zero reads like a mistake
     return ("\n".join(lines) + "\n").replace("-0.000000", "0.000000").encode()
 
@@ -121,7 +128,7 @@ def _manifest() -> bytes:
     )
     for source, role, kind, description in (
         ("experiments.exp", "experiment/smoke-test", "application/x-ma-hs-experiments",
-         "trotting loads, steering, then no load"),
+         "trotting loads, steering, couplings on"),
         ("stimuli.csv", "testcase", "text/csv", "inputs of the experiment, held between rows"),
         ("results.csv", "result", "text/csv", "outputs of the experiment after each step"),
         ("../../documentation/index.html", "document", "text/html", "what this FMU is"),
@@ -132,21 +139,21 @@ def _manifest() -> bytes:
     return _xml(root)
 
 
-def _experiments() -> bytes:
+def _experiments(Ts: float) -> bytes:
     root = etree.Element("Experiments", name="Smoke test", description="Is the import right?")
     experiment = etree.SubElement(
         root,
         "Experiment",
         name="trot",
-        description="trotting loads, steering from 6 s to 8 s, no load from 9 s",
+        description="trotting loads, steering, no load until the couplings switch on, loads again",
         tolerance=repr(TOLERANCE),
     )
     etree.SubElement(
         experiment,
         "TransientSimulation",
         startTime="0",
-        stopTime=str(STOP_TIME),
-        stepSize=repr(1 / _TICKS_PER_S),
+        stopTime=repr(TICKS * Ts),
+        stepSize=repr(Ts),
     )
     etree.SubElement(experiment, "Stimuli", source="stimuli.csv", type="text/csv")
     etree.SubElement(experiment, "References", source="results.csv", type="text/csv")

@@ -8,6 +8,7 @@ import itertools
 from importlib.resources.abc import Traversable
 from typing import Final
 
+from apnc_core.schema import Shape, Value
 from build_fmu.options import BuildOptions
 
 _FMI_HEADERS: Final = {
@@ -24,6 +25,14 @@ def collect(fmi: int = 2) -> dict[str, bytes]:
 
     The headers of the standard come from the ``fmpy`` package.
     """
+    files = own_files(fmi)
+    headers = importlib.resources.files("fmpy").joinpath("c-code")
+    files |= {name: headers.joinpath(name).read_bytes() for name in _FMI_HEADERS[fmi]}
+    return dict(sorted(files.items()))
+
+
+def own_files(fmi: int = 2) -> dict[str, bytes]:
+    """As ``collect``, without the headers of the standard."""
     root = importlib.resources.files("fmu_src")
     files = {
         entry.name: entry.read_bytes()
@@ -31,8 +40,6 @@ def collect(fmi: int = 2) -> dict[str, bytes]:
         for entry in root.joinpath(folder).iterdir()
         if _is_source(entry, fmi)
     }
-    headers = importlib.resources.files("fmpy").joinpath("c-code")
-    files |= {name: headers.joinpath(name).read_bytes() for name in _FMI_HEADERS[fmi]}
     return dict(sorted(files.items()))
 
 
@@ -60,11 +67,26 @@ def config_header(options: BuildOptions, guid: str) -> bytes:
         f'#define APNC_GUID "{guid}"',
         # static libraries of two builds share no name; the core alone has names by its legs
         *([f"#define APNC_PREFIX apnc_{guid[1:9]}_"] if guid else []),
+        *_own_defaults(options),
         "",
         "#endif",
         "",
     ]
     return "\n".join(lines).encode()
+
+
+def _own_defaults(options: BuildOptions) -> list[str]:
+    """Macro that ``apnc_defaults`` ends with; nothing where all values are those of the table."""
+    lines = [
+        f"    (p)->{v.name}{'' if v.shape is Shape.scalar else f'[{k}]'} = {_c_number(value)};"
+        for v in options.changed()
+        for k, value in enumerate(options.start(v))
+    ]
+    return [" \\\n".join(["#define APNC_DEFAULTS(p)", *lines])] if lines else []
+
+
+def _c_number(value: Value) -> str:
+    return repr(value) if isinstance(value, float) else str(int(value))
 
 
 def guid_of(*parts: bytes) -> str:

@@ -7,5 +7,6 @@
 #endif
 
 /* Define APNC_SINGLE for numbers of type float: processors without double arithmetic. */
+/* Own start values: #define APNC_DEFAULTS(p) (p)->robot_weight = 60.0; (p)->xi = 0.03; */
 
 #endif

@@ -29,6 +29,9 @@ void apnc_defaults(apnc_data *data) {
                 ((int32_t *)at)[k] = (int32_t)row->start;
         }
     }
+#ifdef APNC_DEFAULTS
+    APNC_DEFAULTS(&data->parameters)
+#endif
 }
 
 void apnc_reset(const apnc_parameters *p, apnc_state *state) {

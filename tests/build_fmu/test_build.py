@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import subprocess
 import sys
 import zipfile
@@ -15,10 +16,15 @@ from lxml import etree
 
 from apnc_core.schema import Causality
 from apnc_core.variables import scalars
+from build_fmu import build
 from build_fmu.build import cached_fmu, fmu_bytes
+from build_fmu.cache import cache_folder
 from build_fmu.options import BuildError, BuildOptions, host_platform
 
 SOURCES_ONLY = BuildOptions(platforms=())
+
+
+ZIG_CACHE = str(cache_folder() / "zig")  # of the session: the compiler's run time is not made anew
 
 
 def description(fmu: bytes) -> etree._Element:
@@ -92,6 +98,8 @@ def test_shipped_sources_compile_on_their_own(tmp_path: Path) -> None:
 
 def test_cache_is_used_and_can_be_moved(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("APNC_CACHE", str(tmp_path))
+    monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", os.environ.get("ZIG_GLOBAL_CACHE_DIR") or ZIG_CACHE)
+    monkeypatch.setattr(build, "READY", tmp_path / "none")
     compiled: list[str] = []
     options = BuildOptions(platforms=(host_platform(),))
     first = cached_fmu(options, compiled.append)

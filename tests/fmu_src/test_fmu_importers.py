@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import logging
 import re
+import shlex
+import subprocess
+import sys
 import zipfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
+from fmpy.util import create_plotly_figure
 from lxml import etree
 from slave import SCALARS, slave
 
+from apnc_core.enumerations import Method
 from apnc_core.schema import Causality, Type
-from build_fmu.build import fmu_bytes
-from build_fmu.options import BuildOptions
+from build_fmu.build import cached_fmu, fmu_bytes
+from build_fmu.options import BuildOptions, host_platform
 
 OUTPUTS = [
     s.value_reference
@@ -58,6 +64,76 @@ def test_libcosim_steps_it_to_the_outputs_of_fmpy(fmu4: Path) -> None:
             reference = [SCALARS["tick"].value_reference]
             assert watched.last_integer_values(index, reference) == [n + 1]
     assert execution.status().error_code == cosim["Enums"].CosimErrorCode.SUCCESS.value
+
+
+def test_libcosim_sets_enumerations_that_were_built_as_integers(tmp_path: Path) -> None:
+    execution_of = pytest.importorskip("libcosimpy.CosimExecution", reason=missing("libcosimpy"))
+    local = pytest.importorskip("libcosimpy.CosimSlave").CosimLocalSlave
+    observer = pytest.importorskip("libcosimpy.CosimObserver").CosimObserver.create_last_value()
+    options = BuildOptions(platforms=(host_platform(),), enumerations="integer")
+    execution = execution_of.CosimExecution.from_step_size(step_size=STEP_NS)
+    index = execution.add_local_slave(local(str(cached_fmu(options)), "apnc"))
+    execution.add_observer(observer)
+    reference = {v.name.decode(): v.reference for v in execution.slave_variables(index)}
+    execution.integer_initial_value(index, reference["method"], Method.tegotae.value)
+    assert execution.step()
+    assert observer.last_real_values(index, [reference["leg[1].gamma"]]) == [0.03]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block of code of docs/importing.md."""
+
+    line: int
+    language: str
+    code: str
+
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "importing.md"
+BLOCKS = [
+    Block(PAGE.read_text()[: m.start()].count("\n") + 1, m[1], m[2])
+    for m in re.finditer(r"^```(\w+)\n(.*?)^```", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+]
+
+
+WAITING = pytest.mark.xfail(strict=True, reason="`apnc build` does not offer --preset yet")
+
+
+def run_block(command: list[str], folder: Path) -> str:
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.mark.parametrize(
+    "block",
+    [pytest.param(b, marks=WAITING) if "--preset" in b.code else b for b in BLOCKS],
+    ids=lambda b: f"{b.language} in line {b.line}",
+)
+def test_block_of_the_page_on_importing_runs(block: Block, fmu4: Path, tmp_path: Path) -> None:
+    (tmp_path / "Apnc.fmu").write_bytes(fmu4.read_bytes())
+    if block.language in ("python", "py"):
+        if "libcosimpy" in block.code:
+            pytest.importorskip("libcosimpy", reason=missing("libcosimpy"))
+        assert "Error" not in run_block([sys.executable, "-c", block.code], tmp_path)
+    elif block.language == "sh":
+        for line in block.code.splitlines():
+            tool, *words = shlex.split(line)
+            if "--show-plot" in words:
+                plots(words, tmp_path)
+            else:
+                run_block([sys.executable, "-m", tool, *words], tmp_path)
+    else:
+        assert block.language == "lua"
+        pytest.skip("OMSimulator and a robot as an FMU are missing")
+
+
+def plots(words: list[str], folder: Path) -> None:
+    """As --show-plot does, without a browser."""
+    others = [word for word in words if word != "--show-plot"]
+    run_block([sys.executable, "-m", "fmpy", *others, "--output-file", "result.csv"], folder)
+    figure = create_plotly_figure(fmpy.read_csv(str(folder / "result.csv")))
+    assert len(figure.data) == 2
 
 
 @pytest.mark.parametrize("naming", ["structured", "flat"])

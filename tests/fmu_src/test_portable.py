@@ -62,6 +62,15 @@ def standard_functions(fmi: int = 2) -> set[str]:
     return set(re.findall(r"FMI2_Export\s+\w+TYPE\s+(\w+);", before + after))
 
 
+def slice_of(path: Path, platform: str) -> object:
+    """The binary for a platform; one of two in a universal file for Macs."""
+    if PLATFORMS[platform].suffix != ".dylib":
+        return lief.parse(str(path))
+    kind = lief.MachO.Header.CPU_TYPE
+    wanted = kind.ARM64 if platform == "aarch64-darwin" else kind.X86_64
+    return lief.MachO.parse(str(path)).take(wanted)
+
+
 def exports(library: object) -> set[str]:
     if isinstance(library, lief.PE.Binary):
         return {entry.name for entry in library.get_export().entries}
@@ -79,7 +88,7 @@ def test_the_standard_has_34_functions_for_co_simulation_and_75_in_version_3() -
 
 @pytest.mark.parametrize("platform", PLATFORMS)
 def test_exports_are_exactly_the_functions_of_the_standard(unpacked: Path, platform: str) -> None:
-    library = lief.parse(str(library_path(unpacked, platform)))
+    library = slice_of(library_path(unpacked, platform), platform)
     assert exports(library) == standard_functions()
 
 
@@ -96,7 +105,7 @@ def test_exports_of_fmi_3_are_exactly_the_functions_of_the_standard(
     everywhere3: Path, platform: str
 ) -> None:
     folder = everywhere3 / "binaries" / PLATFORMS[platform].folder_for(3)
-    library = lief.parse(str(folder / (MODEL + PLATFORMS[platform].suffix)))
+    library = slice_of(folder / (MODEL + PLATFORMS[platform].suffix), platform)
     assert exports(library) == standard_functions(3)
 
 
@@ -138,7 +147,7 @@ def test_windows_needs_only_what_windows_10_has(unpacked: Path) -> None:
 def test_mac_needs_only_the_system_library(
     unpacked: Path, platform: str, oldest: list[int]
 ) -> None:
-    library = lief.parse(str(library_path(unpacked, platform)))
+    library = slice_of(library_path(unpacked, platform), platform)
     own = [c.name for c in library.commands if c.command == lief.MachO.LoadCommand.TYPE.ID_DYLIB]
     assert own == [f"@rpath/{MODEL}.dylib"]
     needed = {entry.name for entry in library.libraries} - set(own)
@@ -146,6 +155,20 @@ def test_mac_needs_only_the_system_library(
     assert list(library.build_version.minos) == oldest
     # Apple silicon refuses unsigned code
     assert library.has_code_signature or platform == "darwin64"
+
+
+def test_darwin64_is_for_both_processors(unpacked: Path) -> None:
+    path = library_path(unpacked, "darwin64")
+    parts = lief.MachO.parse(str(path))
+    kind = lief.MachO.Header.CPU_TYPE
+    assert [part.header.cpu_type for part in parts] == [kind.X86_64, kind.ARM64]
+    # Apple silicon refuses code whose signature does not fit: the part is the signed file itself
+    content, arm = path.read_bytes(), library_path(unpacked, "aarch64-darwin").read_bytes()
+    offset = parts[1].fat_offset
+    assert offset % 2**14 == 0 and content[offset : offset + len(arm)] == arm
+    if file := shutil.which("file"):
+        said = subprocess.run([file, "-b", path], capture_output=True, text=True, check=True)
+        assert "universal binary with 2 architectures" in said.stdout
 
 
 @pytest.mark.parametrize("platform", PLATFORMS)
