@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import jinja2
-from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from apnc.report.encoding import script_json
@@ -44,16 +43,16 @@ def page(
         lstrip_blocks=True,
     )
 
-    def source(name: str) -> Markup:
+    def source(name: str) -> str:
         assert environment.loader is not None
-        return Markup(environment.loader.get_source(environment, name)[0])
+        return environment.loader.get_source(environment, name)[0]
 
     content = {**(data or {}), "figures": [figure.to_dict() for figure in figures]}
     return environment.get_template(template).render(
         figures=figures,
         css=source("style.css"),
         scripts=[source(name) for name in ("plots.js", *scripts)] if figures else [],
-        plotly=Markup(get_plotlyjs()) if figures else "",
-        data=Markup(script_json(content)),
+        plotly=get_plotlyjs() if figures else "",
+        data=script_json(content),
         **context,
     )
