@@ -5,7 +5,7 @@
   const $ = (id) => document.getElementById(id);
   const scene = new apnc.Scene($("robot"), source);
   const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
-  let now = time[0], playing = false, before = null;
+  let now = time[source.opensAt || 0], playing = false, before = null;
   $("scrub").max = last;
 
   const sampleAt = (t) => {
@@ -61,7 +61,7 @@
     if (!playing) return;
     if (before !== null) now += ((stamp - before) / 1000) * Number($("rate").value);
     before = stamp;
-    if (now >= time[last]) now = time[0];
+    if (now >= time[last]) now = apnc.window[0];
     show();
     requestAnimationFrame(frame);
   };

@@ -2,25 +2,22 @@
 // Draws one moment of the walk on a canvas: ground, path, trunk, legs, ground forces.
 apnc.Scene = class {
   constructor(canvas, source) {
-    this.canvas = canvas;
-    this.context = canvas.getContext("2d");
-    this.n = source.legs.length;
-    this.count = source.count;
-    this.legs = source.legs;
-    this.colours = source.colours;
-    this.trunk = source.trunk;
-    this.trunkCenter = source.trunkCenter;
-    this.weight = source.weight;
-    for (const key of ["position", "rpy", "chains", "force"]) this[key] = apnc.unpack(source[key], Float32Array);
+    Object.assign(this, source, { canvas, context: canvas.getContext("2d"), n: source.legs.length, zoom: 1 });
+    for (const key of ["position", "rpy", "focus", "track", "chains", "force", "ground", "landmarks"]) this[key] = apnc.unpack(source[key], Float32Array);
     this.stance = apnc.unpack(source.stance, Uint8Array);
+    // The robot as it stands at the start fills the same part of the picture, whatever its size.
+    const hips = Array.from({ length: this.n }, (_, leg) => this.point(0, leg, 3));
+    const span = (k) => Math.max(...hips.map((p) => p[k])) - Math.min(...hips.map((p) => p[k]));
+    this.size = Math.max(Math.hypot(span(0), span(1)), this.trunk[0]);
+    this.reach = 4.5 * this.size;
+    this.above = this.focus[2] - this.track[2];
     this.prints = this.footprints();
-    this.view("orbit");
-    this.zoom = 1;
+    this.view("3d");
   }
 
   // Presets are relative to a heading, so that the side view stays one after a turn.
   view(name, yaw = 0) {
-    const presets = { orbit: [-0.95, 0.42], side: [-Math.PI / 2, 0.0], top: [-Math.PI / 2, Math.PI / 2], front: [0, 0.0] };
+    const presets = { "3d": [-0.95, 0.42], side: [-Math.PI / 2, 0.0], top: [-Math.PI / 2, Math.PI / 2], front: [0, 0.0] };
     [this.azimuth, this.elevation] = presets[name];
     this.azimuth += yaw;
   }
@@ -30,29 +27,15 @@ apnc.Scene = class {
     const list = [];
     for (let i = 1; i < this.count; i++) {
       for (let leg = 0; leg < this.n; leg++) {
-        if (this.stance[i * this.n + leg] && !this.stance[(i - 1) * this.n + leg]) {
-          const [x, y] = this.point(i, leg, 3);
-          list.push({ i, leg, x, y });
-        }
+        if (this.stance[i * this.n + leg] && !this.stance[(i - 1) * this.n + leg]) list.push({ i, leg, place: this.sole(i, leg) });
       }
     }
     return list;
   }
 
-  point(i, leg, joint) {
-    const at = ((i * this.n + leg) * 4 + joint) * 3;
-    return [this.chains[at], this.chains[at + 1], this.chains[at + 2]];
-  }
-
   vector(array, i) { return [array[3 * i], array[3 * i + 1], array[3 * i + 2]]; }
-
-  // The camera follows the mean of the last moments, so that the sway of the trunk stays visible.
-  focus(i) {
-    const from = Math.max(0, i - 45), to = Math.min(this.count - 1, i + 45);
-    let x = 0, y = 0;
-    for (let k = from; k <= to; k++) { x += this.position[3 * k]; y += this.position[3 * k + 1]; }
-    return [x / (to - from + 1), y / (to - from + 1), 0.08];
-  }
+  point(i, leg, joint) { return this.vector(this.chains, (i * this.n + leg) * 4 + joint); }
+  sole(i, leg) { return this.point(i, leg, 3).map((v, k) => v - this.radius * this.normal[k]); }
 
   // Parallel projection; the camera looks from (azimuth, elevation) in the world frame.
   project([x, y, z]) {
@@ -61,23 +44,22 @@ apnc.Scene = class {
     const ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
     const right = -dx * sa + dy * ca, depth = dx * ca + dy * sa;
     const up = dz * ce - depth * se;
-    return [this.width / 2 + right * this.scale, this.height * 0.56 - up * this.scale, depth * ce + dz * se];
+    return [this.width / 2 + right * this.scale, this.height * 0.48 - up * this.scale, depth * ce + dz * se];
   }
 
   draw(i) {
-    const ratio = window.devicePixelRatio || 1;
-    this.width = this.canvas.clientWidth;
-    this.height = this.canvas.clientHeight;
-    if (this.canvas.width !== Math.round(this.width * ratio)) this.canvas.width = Math.round(this.width * ratio);
-    if (this.canvas.height !== Math.round(this.height * ratio)) this.canvas.height = Math.round(this.height * ratio);
-    this.scale = 1250 * this.zoom * Math.min(1, this.height / 440);
-    this.centre = this.focus(i);
+    const ratio = window.devicePixelRatio || 1, canvas = this.canvas;
+    this.width = canvas.clientWidth;
+    this.height = canvas.clientHeight;
+    for (const side of ["width", "height"]) if (canvas[side] !== Math.round(this[side] * ratio)) canvas[side] = Math.round(this[side] * ratio);
+    this.scale = (400 / this.size) * this.zoom * Math.min(1, this.height / 500);
+    this.centre = this.vector(this.focus, i);
     const c = this.context;
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     c.clearRect(0, 0, this.width, this.height);
     c.lineCap = c.lineJoin = "round";
-    this.ground();
-    this.track(i);
+    this.surface();
+    this.past(i);
     const middle = this.project(this.vector(this.position, i))[2];
     const parts = [{ depth: middle, paint: () => this.box(i) }];
     for (let leg = 0; leg < this.n; leg++) {
@@ -95,26 +77,41 @@ apnc.Scene = class {
     c.strokeStyle = style; c.lineWidth = width; c.setLineDash(dash); c.stroke(); c.setLineDash([]);
   }
 
-  ground() {
-    const step = 0.1, reach = 1.2;
-    const x0 = Math.round(this.centre[0] / step), y0 = Math.round(this.centre[1] / step), n = reach / step;
-    for (let k = -n; k <= n; k++) {
-      const x = (x0 + k) * step, y = (y0 + k) * step;
-      // Stronger lines every half metre stay put in the world and show the progress.
-      const tone = (m) => (m % 5 === 0 ? ["#b9c2cd", 1.3] : ["#e3e7ec", 1]);
-      this.path([[x, this.centre[1] - reach, 0], [x, this.centre[1] + reach, 0]], ...tone(x0 + k));
-      this.path([[this.centre[0] - reach, y, 0], [this.centre[0] + reach, y, 0]], ...tone(y0 + k));
-    }
+  // The lines of the ground, cut off at a square around the robot.
+  surface() {
+    const [x, y, z] = this.centre, [nx, ny, nz] = this.normal, r = this.reach, c = this.context;
+    const below = z - this.above;
+    c.save();
+    c.beginPath();
+    for (const [dx, dy] of [[-r, -r], [r, -r], [r, r], [-r, r]]) c.lineTo(...this.project([x + dx, y + dy, below - (nx * dx + ny * dy) / nz]));
+    c.clip();
+    this.lines(this.ground, "#dde2e8", 1);
+    this.lines(this.landmarks, "#b3bdc8", 1.4);
+    c.restore();
   }
 
-  track(i) {
+  lines(points, style, width) {
+    const c = this.context, [cx, cy] = this.centre, r = this.reach;
+    const side = (v, centre) => (v < centre - r ? -1 : v > centre + r ? 1 : 0);
+    c.beginPath();
+    for (let k = 3; k + 2 < points.length; k += 3) {
+      const sx = side(points[k], cx), sy = side(points[k + 1], cy);
+      // A step that ends on the side on which it began cannot cross the square.
+      if (!(points[k] + points[k - 3] < Infinity) || (sx && sx === side(points[k - 3], cx)) || (sy && sy === side(points[k - 2], cy))) continue;
+      const a = this.project([points[k - 3], points[k - 2], points[k - 1]]), b = this.project([points[k], points[k + 1], points[k + 2]]);
+      c.moveTo(a[0], a[1]); c.lineTo(b[0], b[1]);
+    }
+    c.strokeStyle = style; c.lineWidth = width; c.stroke();
+  }
+
+  past(i) {
     const points = [];
-    for (let k = Math.max(0, i - 900); k <= i; k += 6) points.push([this.position[3 * k], this.position[3 * k + 1], 0]);
+    for (let k = Math.max(0, i - 900); k <= i; k += 6) points.push(this.vector(this.track, k));
     this.path(points, "#8a94a0", 1.5, [2, 5]);
     const c = this.context;
     for (const print of this.prints) {
       if (print.i > i || i - print.i > 600) continue;
-      const [x, y] = this.project([print.x, print.y, 0]);
+      const [x, y] = this.project(print.place);
       c.globalAlpha = 0.55 * (1 - (i - print.i) / 600);
       c.fillStyle = this.colours[print.leg];
       c.beginPath();
@@ -151,21 +148,20 @@ apnc.Scene = class {
       c.strokeStyle = "#5b6673"; c.lineWidth = 1; c.stroke();
     }
     const top = h + oz + 0.001;
-    this.path([[-0.5 * l, 0, top], [0.7 * l, 0, top]].map(world), "#33404d", 2);
-    this.path([[0.45 * l, 0.3 * b, top], [0.7 * l, 0, top], [0.45 * l, -0.3 * b, top]].map(world), "#33404d", 2);
+    this.path([[ox - 0.5 * l, oy, top], [ox + 0.7 * l, oy, top]].map(world), "#33404d", 2);
+    this.path([[ox + 0.45 * l, oy + 0.3 * b, top], [ox + 0.7 * l, oy, top], [ox + 0.45 * l, oy - 0.3 * b, top]].map(world), "#33404d", 2);
   }
 
   leg(i, leg) {
     const chain = [0, 1, 2, 3].map((joint) => this.point(i, leg, joint));
-    const colour = this.colours[leg], c = this.context;
+    const colour = this.colours[leg], c = this.context, radius = this.radius * this.scale;
     this.path(chain, "#ffffff", 9);
     this.path(chain, colour, 6);
     for (const joint of [1, 2]) this.dot(chain[joint], 4, "#ffffff", colour, 2);
-    const standing = this.stance[i * this.n + leg];
-    this.dot(chain[3], 0.012 * this.scale * 0.9, standing ? colour : "#ffffff", colour, 2.5);
+    this.dot(chain[3], 0.9 * radius, this.stance[i * this.n + leg] ? colour : "#ffffff", colour, 2.5);
     const [x, y] = this.project(chain[3]);
     c.fillStyle = "#1f2933"; c.font = "600 11px system-ui, sans-serif"; c.textAlign = "center";
-    c.fillText(this.legs[leg], x, y + 0.012 * this.scale + 12);
+    c.fillText(this.legs[leg], x, y + radius + 12);
   }
 
   dot(point, radius, fill, stroke, width) {
@@ -176,9 +172,8 @@ apnc.Scene = class {
 
   arrow(i, leg) {
     const force = this.vector(this.force, i * this.n + leg);
-    const size = Math.hypot(...force) / this.weight;
-    if (size < 0.02) return;
-    const foot = this.point(i, leg, 3), base = [foot[0], foot[1], 0];
+    if (Math.hypot(...force) < 0.02 * this.weight) return;
+    const base = this.sole(i, leg);
     // A tenth of a metre stands for half the weight.
     const tip = base.map((v, k) => v + (force[k] / this.weight) * 0.2);
     this.path([base, tip], "#1f2933", 2.2);
