@@ -42,7 +42,7 @@ def clearance(
 ) -> Array:
     """Height of the lowest point of every foot over the ground below it [m], shape (len(at), n)."""
     x, y, z = np.moveaxis(in_ground(ground, plant["foot_position"][at]), -1, 0)
-    below = [ground.height(*leg) for leg in zip(x.T, y.T, strict=True)]
+    below = [ground.elevation(*leg) for leg in zip(x.T, y.T, strict=True)]
     return z - robot.contact.foot_radius - np.stack(below, axis=1)
 
 

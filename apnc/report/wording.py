@@ -190,7 +190,8 @@ def _way(s: Summary) -> str:
 def _turned(s: Summary) -> str:
     if s.turned_deg is None:
         return DASH
-    return f"{abs(s.turned_deg):.0f}° to the {'left' if s.turned_deg >= 0 else 'right'}"
+    side = "left" if s.turned_deg > 0 else "right"
+    return f"{abs(s.turned_deg):.0f}° to the {side}" if abs(s.turned_deg) >= 0.5 else "0°"
 
 
 def _by_leg(values: dict[str, float | None], digits: int = 2) -> str:

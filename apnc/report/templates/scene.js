@@ -6,8 +6,8 @@ apnc.Scene = class {
     for (const key of ["position", "rpy", "focus", "track", "chains", "force", "ground", "landmarks"]) this[key] = apnc.unpack(source[key], Float32Array);
     this.stance = apnc.unpack(source.stance, Uint8Array);
     // The robot as it stands at the start fills the same part of the picture, whatever its size.
-    const hips = Array.from({ length: this.n }, (_, leg) => this.point(0, leg, 3));
-    const span = (k) => Math.max(...hips.map((p) => p[k])) - Math.min(...hips.map((p) => p[k]));
+    const feet = Array.from({ length: this.n }, (_, leg) => this.point(0, leg, 3));
+    const span = (k) => Math.max(...feet.map((p) => p[k])) - Math.min(...feet.map((p) => p[k]));
     this.size = Math.max(Math.hypot(span(0), span(1)), this.trunk[0]);
     this.reach = 4.5 * this.size;
     this.above = this.focus[2] - this.track[2];
@@ -44,7 +44,7 @@ apnc.Scene = class {
     const ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
     const right = -dx * sa + dy * ca, depth = dx * ca + dy * sa;
     const up = dz * ce - depth * se;
-    return [this.width / 2 + right * this.scale, this.height * 0.48 - up * this.scale, depth * ce + dz * se];
+    return [this.width / 2 + right * this.scale, this.height * 0.45 - up * this.scale, depth * ce + dz * se];
   }
 
   draw(i) {
@@ -52,7 +52,7 @@ apnc.Scene = class {
     this.width = canvas.clientWidth;
     this.height = canvas.clientHeight;
     for (const side of ["width", "height"]) if (canvas[side] !== Math.round(this[side] * ratio)) canvas[side] = Math.round(this[side] * ratio);
-    this.scale = (400 / this.size) * this.zoom * Math.min(1, this.height / 500);
+    this.scale = (0.6 * Math.min(this.height, 0.7 * this.width) / this.size) * this.zoom;
     this.centre = this.vector(this.focus, i);
     const c = this.context;
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
