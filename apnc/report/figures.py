@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from apnc import metrics
 from apnc.report import theme
@@ -14,69 +12,70 @@ from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import Array, Run, line, stacked
 from apnc.report.skeleton import clearance, in_ground
+from exudyn_models.channels import JOINTS
 
 PI_TICKS: Final = {
     "tickvals": [-np.pi / 2, 0.0, np.pi / 2, np.pi, 3 * np.pi / 2],
     "ticktext": ["−π/2", "0", "π/2", "π", "3π/2"],
 }
-# Columns of a joint in the channels per joint.
-_HIP, _KNEE = 1, 2
 
 
 def all_figures(run: Run) -> list[Figure]:
-    """Every panel in reading order; the record has at least one sample."""
-    makers: list[Callable[[Run], Figure]] = [
-        *(gait, phases, speed, path, trunk, clearances, loads, outputs),
-        *(gains, stability, hips, knees, torques),
-    ]
-    return [make(run) for make in makers]
+    """Every panel in reading order."""
+    makers = (gait, phases, speed, path, trunk, clearances, loads, outputs, gains, stability)
+    joints = [angles(run, "hip", "leg"), angles(run, "knee", "foot")]
+    return [*(make(run) for make in makers), *joints, torques(run)]
+
+
+def over_time(key: str, title: str, note: str, data: list[Trace], y: Any, **more: Any) -> Figure:
+    """A figure of one panel over time."""
+    layout = theme.layout(more.pop("height", 260), xaxis=theme.axis("time [s]"), yaxis=y, **more)
+    return Figure(key, title, note, data, layout)
 
 
 def gait(run: Run) -> Figure:
     """Gait diagram: a bar where a foot stands."""
-    record = run.record
-    standing = metrics.stance(record.plant["foot_force"][..., 2])
-    bars = [_bars(run, i, column) for i, column in enumerate(standing.T)]
-    again = _second_touches(run, standing)
-    n = record.n_legs
+    n, target = run.record.n_legs, metrics.gait_name(run.record.n_legs)
     names = [f'<b style="color:{colour}">{leg}</b>' for leg, colour in run.colours.items()]
-    ticks = {"tickvals": list(range(n)), "ticktext": names, "range": [n - 0.4, -0.6]}
-    layout = theme.layout(
-        90 + 32 * n,
-        xaxis=theme.axis("time [s]"),
-        yaxis=theme.axis("leg", fixedrange=True, showgrid=False, **ticks),
+    rows = {"tickvals": list(range(n)), "ticktext": names, "range": [n - 0.4, -0.6]}
+    return over_time(
+        "gait",
+        "Gait diagram",
+        f"Black: the foot stands. Legs that are in phase in the {target} stand together.",
+        [*(_bars(run, row) for row in range(n)), _second_touches(run)],
+        theme.axis("leg", fixedrange=True, showgrid=False, **rows),
+        height=90 + 32 * n,
         hovermode="closest",
     )
-    target = metrics.gait_name(n)
-    note = f"Black: the foot stands. Legs that are in phase in the {target} stand together."
-    return Figure("gait", "Gait diagram", note, [*bars, again], layout)
 
 
 def phases(run: Run) -> Figure:
     """Relative phases against the target gait and the tolerance of the strict criterion."""
     c, legs, target = run.record.controller, run.record.legs, run.summary.phi_target
     smoothed = metrics.relative_phases(c["o1"], c["o2"])
-    traces: list[Trace] = []
+    own = {"width": 1, "dash": "dot", "visible": "legendonly"}
+    traces = []
     for k, leg in enumerate(legs[1:]):
-        name, colour = f"φ1{k + 2} ({legs[0]}–{leg})", run.colours[leg]
-        own = {"width": 1, "dash": "dot", "visible": "legendonly"}
-        traces.append(line(_uncut(run.samples.of(smoothed[:, k])), name, colour, width=2.4))
-        seen = _uncut(run.samples.of(c["phi"][:, k]))
-        traces.append(line(seen, f"φ1{k + 2} in the FMU", colour, **own))
-    shown = metrics.wrap_for_display(target) if target else []
-    levels = sorted({round(float(level), 6) for level in shown})
-    layout = theme.layout(
-        330,
-        xaxis=theme.axis("time [s]"),
-        yaxis=theme.axis("relative phase [rad]", range=[-np.pi / 2, 3 * np.pi / 2], **PI_TICKS),
-        shapes=[shape for level in levels for shape in (_band(level), _level(level))],
-    )
-    note = (
+        for name, phi, style in (
+            (f"φ1{k + 2} ({legs[0]}–{leg})", smoothed[:, k], {"width": 2.4}),
+            (f"φ1{k + 2} in the FMU", c["phi"][:, k], own),
+        ):
+            traces.append(line(_uncut(run.samples.of(phi)), name, run.colours[leg], **style))
+    levels = sorted({round(float(metrics.wrap_for_display(phi)), 6) for phi in target or ()})
+    return over_time(
+        "phi",
+        "Relative phases",
         f"Smoothed over 1.5 s; positive where the leg is ahead of {legs[0]}. Dashed: target gait "
         f"({metrics.gait_name(len(legs))}) with the ±{metrics.STRICT_TOLERANCE} rad of the strict "
-        "criterion. Dotted, by a click on the legend: the phase that the FMU estimates."
+        "criterion. Dotted, by a click on the legend: the phase that the FMU estimates.",
+        traces,
+        theme.axis("relative phase [rad]", range=[-np.pi / 2, 3 * np.pi / 2], **PI_TICKS),
+        height=330,
+        shapes=[
+            *(_level(y, "rect", metrics.STRICT_TOLERANCE) for y in levels),
+            *(_level(y) for y in levels),
+        ],
     )
-    return Figure("phi", "Relative phases", note, traces, layout)
 
 
 def speed(run: Run) -> Figure:
@@ -85,70 +84,59 @@ def speed(run: Run) -> Figure:
     yaw = plant["rpy"][:, 2]
     raw = plant["velocity"][:, 0] * np.cos(yaw) + plant["velocity"][:, 1] * np.sin(yaw)
     slow = metrics.smoothed_speed(run.record.time, plant["position"], yaw)
-    traces = [
-        run.line(raw, "trunk", theme.SKY, width=0.8, opacity=0.55),
-        run.line(slow, "smoothed over 1.5 s", theme.BLUE, width=2.4),
-    ]
-    layout = theme.layout(
-        260,
-        xaxis=theme.axis("time [s]"),
-        yaxis=theme.axis("speed [m/s]", rangemode="tozero"),
+    return over_time(
+        "speed",
+        "Forward speed",
+        "Along the present heading. Dashed: mean along the path.",
+        [
+            run.line(raw, "trunk", theme.SKY, width=0.8, opacity=0.55),
+            run.line(slow, "smoothed over 1.5 s", theme.BLUE, width=2.4),
+        ],
+        theme.axis("speed [m/s]", rangemode="tozero"),
         shapes=[] if mean is None else [_level(mean)],
     )
-    note = "Along the present heading. Dashed: mean along the path."
-    return Figure("speed", "Forward speed", note, traces, layout)
 
 
 def path(run: Run) -> Figure:
     """Trunk path from above, equal axes, start and end marked."""
-    x, y = run.record.plant["position"][run.samples.at, :2].T
-    track = line(y, "trunk", theme.BLUE) | {"x": float32(x)}
-    ends = [
+    x, y = run.shown["position"][:, :2].T
+    traces = [
+        line(y, "trunk", theme.BLUE) | {"x": float32(x)},
         _points(x[:1], y[:1], "start", "circle-open", theme.GREEN),
         _points(x[-1:], y[-1:], "end", "circle", theme.VERMILLION),
     ]
-    layout = theme.layout(
-        330,
-        xaxis=theme.axis("x [m]"),
-        yaxis=theme.axis("y [m]", scaleanchor="x", scaleratio=1),
-        hovermode="closest",
-    )
+    equal = theme.axis("y [m]", scaleanchor="x", scaleratio=1)
+    layout = theme.layout(330, xaxis=theme.axis("x [m]"), yaxis=equal, hovermode="closest")
     note = "Seen from above, equal scales; the robot starts along x."
-    return Figure("path", "Path of the trunk", note, [track, *ends], layout, over_time=False)
+    return Figure("path", "Path of the trunk", note, traces, layout, over_time=False)
 
 
 def trunk(run: Run) -> Figure:
     """Height over the ground and attitude of the trunk."""
     plant = run.record.plant
     height = in_ground(run.record.experiment.ground, plant["position"])[:, 2]
-    roll, pitch, yaw = np.degrees(np.unwrap(plant["rpy"], axis=0)).T
-    signals = [
-        ("height [m]", height),
-        ("roll [°]", roll),
-        ("pitch [°]", pitch),
-        ("yaw [°]", yaw),
-    ]
-    look = {"showlegend": False, "width": 1.4}
-    rows = [(name, [run.line(values, name, theme.BLUE, **look)]) for name, values in signals]
+    angles = np.degrees(np.unwrap(plant["rpy"], axis=0)).T
+    names = ("height [m]", "roll [°]", "pitch [°]", "yaw [°]")
     note = (
         "Height over the plane of the ground; angles against the horizontal. Positive: left side "
         "up (roll), nose down (pitch), to the left (yaw)."
     )
+    rows = [
+        (name, [run.line(values, name, theme.BLUE, showlegend=False)])
+        for name, values in zip(names, [height, *angles], strict=True)
+    ]
     return stacked("trunk", "Height and attitude of the trunk", note, rows)
 
 
 def clearances(run: Run) -> Figure:
     """Height of the feet over the ground."""
-    record, at = run.record, run.samples.at
-    gap = 1000.0 * clearance(record.experiment.ground, record.robot, record.plant, at)
+    robot, ground = run.record.robot, run.record.experiment.ground
+    gap = 1000.0 * clearance(ground, robot, run.shown["foot_position"])
     rows = [
         (f"<b>{leg}</b> [mm]", [line(gap[:, i], leg, colour, showlegend=False)])
         for i, (leg, colour) in enumerate(run.colours.items())
     ]
-    note = (
-        "Lowest point of the foot over the ground below it; negative where it sinks in, or "
-        "touches the flank of an obstacle."
-    )
+    note = "Lowest point of the foot over the ground below it; negative where the foot sinks in."
     return stacked("clearance", "Foot clearance", note, rows, matches="y")
 
 
@@ -156,31 +144,30 @@ def loads(run: Run) -> Figure:
     """Vertical ground force and sensor signal."""
     force = run.record.plant["foot_force"][..., 2]
     # A handful of impacts may be ten times the load of a step and would flatten every step.
-    usual = float(np.nanquantile(force, 0.995))
+    usual = max(float(np.nanquantile(force, 0.995)), 1.0)
     series = {"force of the ground": force, "sensor": run.record.plant["grf"]}
     note = (
         "Vertical force of the ground on the foot, and what the sensor of the foot tells the FMU. "
-        "The rows are made for the loads of walking and cut off impact peaks; Autoscale shows all."
+        "The rows cut off impact peaks; Autoscale shows them."
     )
-    limits = (-0.05 * usual, max(1.2 * usual, 1.0))
-    return run.leg_rows("grf", "Ground reaction forces", "N", series, note, limits)
+    limits = [-0.05 * usual, 1.2 * usual]
+    return run.leg_rows("grf", "Ground reaction forces", "N", series, note, range=limits)
 
 
 def outputs(run: Run) -> Figure:
     """CPG outputs."""
     series = {"o1 (hip)": run.record.controller["o1"], "o2 (knee)": run.record.controller["o2"]}
     note = "o1 drives the hip, o2 the knee."
-    return run.leg_rows("cpg", "CPG outputs", "1", series, note, (-1.2, 1.2))
+    return run.leg_rows("cpg", "CPG outputs", "1", series, note, range=[-1.2, 1.2])
 
 
 def gains(run: Run) -> Figure:
     """Adaptive feedback gain gamma per leg."""
-    layout = theme.layout(
-        260, xaxis=theme.axis("time [s]"), yaxis=theme.axis("γ [1]", rangemode="tozero")
-    )
+    gamma = run.record.controller["gamma"].T
+    lines = [run.line(g, *leg) for g, leg in zip(gamma, run.colours.items(), strict=True)]
     note = "Gain of the load feedback on each CPG, learned while walking (Eq. 9)."
-    traces = run.per_leg(run.record.controller["gamma"])
-    return Figure("gamma", "Sensory feedback gain γ", note, traces, layout)
+    axis = theme.axis("γ [1]", rangemode="tozero")
+    return over_time("gamma", "Sensory feedback gain γ", note, lines, axis)
 
 
 def stability(run: Run) -> Figure:
@@ -190,47 +177,39 @@ def stability(run: Run) -> Figure:
     kappa = run.line(run.record.controller["kappa"], "κ, right axis", theme.VERMILLION, **area)
     kappa["line"]["shape"] = "hv"
     right = {"overlaying": "y", "side": "right", "range": [0, 1.08], "tickvals": [0, 1]}
-    layout = theme.layout(
-        260,
-        xaxis=theme.axis("time [s]"),
-        yaxis=theme.axis("d [rad]", rangemode="tozero"),
+    return over_time(
+        "kappa",
+        "Phase stability d and coupling switch κ",
+        "κ = 1: the neural coupling (ANC) holds the stored phases. d: how much they still vary.",
+        [kappa, d],
+        theme.axis("d [rad]", rangemode="tozero"),
         yaxis2=theme.axis("κ [1]", showgrid=False, **right),
     )
-    note = "κ = 1: the neural coupling (ANC) holds the stored phases. d: how much they still vary."
-    return Figure("kappa", "Phase stability d and coupling switch κ", note, [kappa, d], layout)
 
 
-def hips(run: Run) -> Figure:
-    """Commanded and actual hip angles."""
-    return _joint(run, "hip", _HIP, "positive swings the leg forward")
-
-
-def knees(run: Run) -> Figure:
-    """Commanded and actual knee angles."""
-    return _joint(run, "knee", _KNEE, "positive swings the foot forward and up")
+def angles(run: Run, joint: str, part: str) -> Figure:
+    """Commanded and actual angles of a joint, which swings a part of the leg."""
+    actual = run.record.plant["joint_angle"][..., JOINTS.index(joint)]
+    commanded = run.record.controller[f"theta_{joint}"]
+    series = {"actual": np.degrees(actual), "commanded": np.degrees(commanded)}
+    note = (
+        f"Against the reference pose; positive swings the {part} forward. Commanded: by the FMU, "
+        "before the limits of the servo and damage."
+    )
+    return run.leg_rows(joint, f"{joint.capitalize()} angles", "°", series, note)
 
 
 def torques(run: Run) -> Figure:
     """Hip and knee torque."""
     torque = run.record.plant["joint_torque"]
-    series = {"hip": torque[..., _HIP], "knee": torque[..., _KNEE]}
-    note = "Torque of the servos on the joints, in the direction of positive angles."
+    series = {joint: torque[..., JOINTS.index(joint)] for joint in ("hip", "knee")}
+    note = "Torque of the servos on the joints, positive in the direction of positive angles."
     return run.leg_rows("torque", "Joint torques", "N m", series, note)
 
 
-def _joint(run: Run, joint: str, column: int, sign: str) -> Figure:
-    record = run.record
-    series = {
-        "actual": np.degrees(record.plant["joint_angle"][..., column]),
-        "commanded": np.degrees(record.controller[f"theta_{joint}"]),
-    }
-    note = f"Against the reference pose; {sign}. Commanded: by the FMU, before slew and latency."
-    return run.leg_rows(joint, f"{joint.capitalize()} angles", "°", series, note)
-
-
-def _bars(run: Run, row: int, standing: NDArray[np.bool_]) -> Trace:
-    record = run.record
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], standing.astype(np.int8), [0]])))
+def _bars(run: Run, row: int) -> Trace:
+    record, standing = run.record, run.standing[:, row].astype(np.int8)
+    edges = np.flatnonzero(np.diff(standing, prepend=0, append=0))
     ends = np.append(record.time, record.ended_at)[edges]
     # One broken line instead of thousands of bars: a long run stays quick.
     x = np.insert(ends, np.arange(2, len(ends) + 1, 2), np.nan)
@@ -239,32 +218,25 @@ def _bars(run: Run, row: int, standing: NDArray[np.bool_]) -> Trace:
     return bars | {"x": float32(x), "showlegend": False, "hovertemplate": hover}
 
 
-def _second_touches(run: Run, standing: NDArray[np.bool_]) -> Trace:
+def _second_touches(run: Run) -> Trace:
     """Marks where a foot comes down again in the same cycle of its oscillator."""
-    c = run.record.controller
+    c, x, y = run.record.controller, [], []
     starts = metrics.cycle_starts(c["o1"], c["o2"])
-    x, rows = [], []
-    for row, (column, start) in enumerate(zip(standing.T, starts, strict=True)):
-        downs = np.flatnonzero(column[1:] & ~column[:-1]) + 1
-        cycle = np.searchsorted(start, downs, side="right")
-        again = downs[1:][np.diff(cycle) == 0]
-        x.append(run.record.time[again])
-        rows.append(np.full(len(again), float(row)))
+    for row, (stands, start) in enumerate(zip(run.standing.T, starts, strict=True)):
+        downs = np.flatnonzero(stands[1:] & ~stands[:-1]) + 1
+        again = downs[1:][np.diff(np.searchsorted(start, downs, side="right")) == 0]
+        x += run.record.time[again].tolist()
+        y += [float(row)] * len(again)
     name = "second touch-down in a cycle"
-    touches = _points(np.concatenate(x), np.concatenate(rows), name, "diamond", theme.VERMILLION)
-    touches["marker"] |= {"size": 9, "line": {"width": 1, "color": "#ffffff"}}
-    return touches
+    return _points(np.array(x), np.array(y), name, "diamond", theme.VERMILLION, 9)
 
 
-def _level(y: float) -> Trace:
-    style = {"color": theme.GREY, "width": 1.2, "dash": "dash"}
-    return {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": y, "y1": y, "line": style}
-
-
-def _band(y: float) -> Trace:
-    fill = {"fillcolor": theme.BAND, "line": {"width": 0}, "layer": "below"}
-    low, high = y - metrics.STRICT_TOLERANCE, y + metrics.STRICT_TOLERANCE
-    return {"type": "rect", "xref": "paper", "x0": 0, "x1": 1, "y0": low, "y1": high} | fill
+def _level(y: float, kind: str = "line", half: float = 0.0) -> Trace:
+    """A dashed line, or a faint band, across the whole width."""
+    edge = {"color": theme.GREY, "width": 0 if half else 1.2, "dash": "dash"}
+    look = {"fillcolor": theme.BAND, "layer": "below"} if half else {}
+    span = {"xref": "paper", "x0": 0, "x1": 1, "y0": y - half, "y1": y + half}
+    return {"type": kind, "line": edge, **span, **look}
 
 
 def _uncut(phase: Array) -> Array:
@@ -274,7 +246,7 @@ def _uncut(phase: Array) -> Array:
     return shown
 
 
-def _points(x: Array, y: Array, name: str, symbol: str, colour: str) -> Trace:
-    style: dict[str, Any] = {"symbol": symbol, "size": 12, "color": colour, "line": {"width": 2.5}}
+def _points(x: Array, y: Array, name: str, symbol: str, colour: str, size: int = 12) -> Trace:
+    style = {"symbol": symbol, "size": size, "color": colour, "line": {"width": 2}}
     at = {"x": float32(x), "y": float32(y)}
     return {"type": "scatter", "mode": "markers", "name": name, "marker": style} | at

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Final
 
@@ -15,7 +14,7 @@ from apnc.report.encoding import packed
 from apnc.report.figures import all_figures
 from apnc.report.html import page
 from apnc.report.panels import Run
-from apnc.report.samples import LATE_S, Samples
+from apnc.report.samples import LATE_S
 from apnc.report.theme import leg_colours
 from apnc.report.wording import facts, heading, rows, verdicts
 from apnc.summary import Summary
@@ -27,15 +26,10 @@ BEYOND: Final = 1e4
 def render(record: Record, summary: Summary) -> str:
     """HTML text of the report of a run, however it ended.
 
-    Args:
-        record: the run.
-        summary: its key figures.
-
     Pitfall: it carries plotly.js (about 5 MB) and what it shows of the record; it is no archive.
     """
     shown = drawable(record)
-    run = Run(shown, summary, Samples(shown.time)) if len(shown) else None
-    known = what_was_run(record.experiment)
+    run = Run(shown, summary) if len(shown) else None
     return page(
         "report.html.j2",
         all_figures(run) if run else [],
@@ -46,8 +40,8 @@ def render(record: Record, summary: Summary) -> str:
         verdicts=verdicts(summary, record.experiment.duration),
         rows=rows(summary),
         colours=leg_colours(record.legs),
-        known=known,
-        notes=_notes(record, shown, run),
+        known=what_was_run(record.experiment),
+        notes=_notes(record, run),
     )
 
 
@@ -55,47 +49,37 @@ def drawable(record: Record) -> Record:
     """The run without the end of a diverged motion, whose numbers have no scale to draw them on."""
     if record.end is not End.diverged:
         return record
-    sound = np.ones(len(record), dtype=np.bool_)
-    for name, values in record.plant.items():
-        if name != "joint_work":  # grows without bounds in a sound motion, too
-            flat = values.reshape(len(record), -1)
-            sound &= (np.abs(flat) < BEYOND).all(axis=1)  # NaN is not
-    count = len(record) if sound.all() else int(np.argmin(sound))
-
-    def cut(channels: Mapping[str, Any]) -> dict[str, Any]:
-        return {name: values[:count] for name, values in channels.items()}
-
-    return replace(
-        record,
-        time=record.time[:count],
-        plant=cut(record.plant),
-        controller=cut(record.controller),
-    )
+    # work grows without bounds in a sound motion, too
+    channels = [v.reshape(len(v), -1) for name, v in record.plant.items() if name != "joint_work"]
+    largest = np.abs(np.concatenate(channels, axis=1)).max(axis=1)
+    unsound = np.flatnonzero(~(largest < BEYOND))  # NaN, too
+    count = int(unsound[0]) if len(unsound) else len(record)
+    plant = {name: values[:count] for name, values in record.plant.items()}
+    controller = {name: values[:count] for name, values in record.controller.items()}
+    return replace(record, time=record.time[:count], plant=plant, controller=controller)
 
 
 def _data(run: Run) -> dict[str, Any]:
-    at, opens = run.samples.at, run.samples.opens_at
+    time, opens = run.record.time, run.samples.opens_at
     return {
-        "time": packed(run.record.time[at], "<f4"),
-        "opensAt": None if opens is None else float(run.record.time[opens]),
+        "time": packed(time[run.samples.at], "<f4"),
+        "opensAt": None if opens is None else float(time[opens]),
         "animation": animation_data(run),
     }
 
 
-def _notes(record: Record, shown: Record, run: Run | None) -> list[str]:
-    notes = []
+def _notes(record: Record, run: Run | None) -> list[str]:
+    notes, drawn = [], len(run.record) if run else 0
     if not len(record):
         notes.append("The run ended before its first sample; there is nothing to plot.")
-    elif len(shown) < len(record):
-        begin = record.time[len(shown)]
+    elif drawn < len(record):
         notes.append(
-            f"From {begin:.2f} s on the motion has no scale (numbers beyond {BEYOND:g}); it is not "
-            "drawn. record.csv has it."
+            f"From {record.time[drawn]:.2f} s on the motion has no scale (numbers beyond "
+            f"{BEYOND:g}); it is not drawn. record.csv has it."
         )
-    if run and run.samples.block:
+    if run and (block := run.samples.block):
         notes.append(
-            f"A long run: all lines but the last {LATE_S:g} s show the least and the largest of "
-            f"every {run.samples.block} samples, the animation every {run.samples.block // 2}th. "
-            "record.csv has them all."
+            f"A long run: but for the last {LATE_S:g} s, lines show the least and the largest of "
+            f"every {block} samples, the animation every {block // 2}th. record.csv has them all."
         )
     return notes

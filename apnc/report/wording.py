@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, Final
 
 from apnc import metrics
 from apnc.loop.experiment import Experiment
@@ -13,8 +13,10 @@ from apnc.loop.steps import steps_text
 from apnc.summary import Summary
 from exudyn_models.conditions import Conditions
 
-DASH = "–"
-_SPACE = "\N{NO-BREAK SPACE}"
+DASH: Final = "–"
+_SPACE: Final = "\N{NO-BREAK SPACE}"
+_UNITS: Final = {"duration": " s", "rate": " Hz", "step": " s"}
+_SPEAK_FOR_THEMSELVES: Final = ("robot", "method", "ground", "conditions")
 
 
 @dataclass(frozen=True)
@@ -29,44 +31,35 @@ class Verdict:
 
 def heading(experiment: Experiment) -> str:
     """What is not default, in a line."""
-    words = []
-    for name, value in experiment.changed().items():
-        if name == "settings":
-            words += [f"{key} {_plain(entry)}" for key, entry in value.items()]
-        elif name in ("robot", "method", "ground", "conditions"):
-            words.append(_plain(value))
-        else:
-            words.append(f"{name.replace('mi', 'MI')} {_plain(value)}{_UNITS.get(name, '')}")
-    return ", ".join(words) or "all as by default"
+    changed = {**experiment.changed()}
+    settings = changed.pop("settings", {})
+    words = [
+        _plain(value)
+        if name in _SPEAK_FOR_THEMSELVES
+        else f"{'MI' if name == 'mi' else name} {_plain(value)}{_UNITS.get(name, '')}"
+        for name, value in changed.items()
+    ]
+    return ", ".join([*words, *_settings(settings)]) or "all as by default"
 
 
 def facts(record: Record) -> list[tuple[str, str]]:
     """What was run: name and value."""
     e = record.experiment
-    stored = e.parameters()["phi_stored"] if e.settings.get("stored") else None
-    changed = [f"{name} {_plain(v)}" for name, v in e.settings.items() if name != "phi_stored"]
+    stored = e.settings.get("phi_stored") if e.settings.get("stored") else None
     return [
         ("Robot", f"{record.robot.name}, {record.mass:.2f} kg, legs {', '.join(record.legs)}"),
         ("Controller", f"{e.method}, preset {e.preset}, {e.rate:g} Hz"),
-        ("Changed parameters", ", ".join(changed) or "none"),
+        ("Changed parameters", ", ".join(_settings(e.settings)) or "none"),
         ("Memory", f"starts with φ {_plain(stored)} rad" if stored else "empty at the start"),
-        ("MI", _plain(e.mi)),
-        ("Turn", _plain(e.turn)),
-        ("Conditions", _plain(e.conditions)),
-        ("Ground", _plain(e.ground)),
-        ("Seed", str(e.seed)),
+        *((name.capitalize(), _plain(getattr(e, name))) for name in ("turn", "conditions")),
+        *(("MI", _plain(e.mi)), ("Ground", _plain(e.ground)), ("Seed", str(e.seed))),
         ("Contact", f"{e.contact}, step {1e6 * e.step:.4g} µs"),
     ]
 
 
 def verdicts(summary: Summary, planned: float) -> list[Verdict]:
-    """The three questions a reader has first: did it walk, did the gait form, how fast.
-
-    Args:
-        summary: key figures of the run.
-        planned: how long it was to last [s].
-    """
-    return [_walked(summary, planned), _formed(summary), _quality(summary)]
+    """The three questions a reader has first, about a run that was to last ``planned`` [s]."""
+    return [_walked(summary, planned), _formed(summary), _fast(summary)]
 
 
 def number(value: float | None, digits: int = 2, unit: str = "") -> str:
@@ -76,40 +69,33 @@ def number(value: float | None, digits: int = 2, unit: str = "") -> str:
     return f"{value:.{digits}f}{_SPACE * bool(unit)}{unit}"
 
 
-def rows(summary: Summary) -> list[tuple[str, str, str]]:
+def rows(s: Summary) -> list[tuple[str, str, str]]:
     """Rows of the summary table: name, value with unit, what it means."""
-    s = summary
-    pairs = zip(range(2, 99), s.phi_final, strict=False)
-    phases = ", ".join(f"φ1{k}{_SPACE}{phase_text(phase)}" for k, phase in pairs)
+    phases = [f"φ1{k}{_SPACE}{phase_text(p)}" for k, p in enumerate(s.phi_final, start=2)]
     target = metrics.gait_name(len(s.phi_final) + 1).capitalize()
-    tolerance = f"within {metrics.STRICT_TOLERANCE} rad to the end"
+    strict = f"within {metrics.STRICT_TOLERANCE} rad to the end"
+    share = None if s.fmu_share_of_wall_time is None else 100.0 * s.fmu_share_of_wall_time
+    steadier = "1/std roll + 1/std pitch; larger is steadier: 80 is 1.4° of sway, 200 is 0.6°"
+    evener = "1 / spread of the share of stance; larger is more even: 10 is a spread of 0.1"
     return [
-        ("Speed along the path", number(s.path_speed_m_per_s, 3, "m/s"), "path smoothed over 1.5 s"),
+        ("Speed along the path", number(s.path_speed_m_per_s, 3, "m/s"), "smoothed over 1.5 s"),
         ("Turned", _turned(s), "from the first heading to the last"),
         ("Net displacement", number(s.distance_m, 2, "m"), "along the first heading"),
-        ("Simulated", number(s.duration_s, 2, "s"), _ending(s)),
-        (f"{target}, strict", number(s.convergence_time_s, 2, "s"), tolerance),
-        (f"{target}, authors", number(s.convergence_time_authors_s, 2, "s"), "below 2.8 rad, first"),
-        ("Final gait", s.gait or DASH, phases),
+        ("Simulated", number(s.duration_s, 2, "s"), ": ".join(filter(None, (s.end, s.message)))),
+        (f"{target}, strict", number(s.convergence_time_s, 2, "s"), strict),
+        (f"{target}, authors", number(s.convergence_time_authors_s, 2, "s"), "first within 2.8 rad"),
+        ("Final gait", s.gait or DASH, ", ".join(phases)),
         ("Gait stored", number(s.stored_at_s, 2, "s"), "neural couplings first on"),
         ("Stride frequency", number(s.stride_frequency_hz, 2, "Hz"), "cycles of the oscillators"),
-        ("Duty factor", _by_leg(s.duty_factor), "share of stance"),
+        ("Duty factor", _by_leg(s.duty_factor, 2), "share of stance"),
         ("Touch-downs per stride", number(s.touch_downs_per_stride), "1 is a clean step"),
         ("Foot lift", _by_leg(s.foot_lift_mm, 1), "mm, mid-swing above stance"),
         ("Slip per stride", _by_leg(s.slip_per_stride_mm, 1), "mm, in stance"),
-        (
-            "Balance",
-            number(s.balance, 1, "1/rad"),
-            "1/std roll + 1/std pitch; larger is steadier: 80 is 1.4° of sway, 200 is 0.6°",
-        ),
-        (
-            "Coordination",
-            number(s.coordination, 1),
-            "1 / spread of the share of stance; larger is more even: 10 is a spread of 0.1",
-        ),
+        ("Balance", number(s.balance, 1, "1/rad"), steadier),
+        ("Coordination", number(s.coordination, 1), evener),
         ("Cost of transport", number(s.cost_of_transport), "energy / (m g path); less is better"),
         ("Real-time factor", number(s.real_time_factor, 1, "×"), "simulated / wall time"),
-        ("Controller's share", _percent(s.fmu_share_of_wall_time), "of wall time"),
+        ("Controller's share", number(share, 1, "%"), "of wall time"),
     ]
 
 
@@ -118,7 +104,8 @@ def phase_text(phase: float | None) -> str:
     return DASH if phase is None else f"{phase / math.pi:.2f}{_SPACE}π"
 
 
-_UNITS = {"duration": " s", "rate": " Hz", "step": " s"}
+def _settings(settings: Any) -> list[str]:
+    return [f"{name} {_plain(v)}" for name, v in settings.items() if name != "phi_stored"]
 
 
 def _plain(value: Any) -> str:
@@ -128,63 +115,53 @@ def _plain(value: Any) -> str:
         changed = {f.name: getattr(value, f.name) for f in fields(value)}
         words = [f"{k} {_plain(v)}" for k, v in changed.items() if v != getattr(default, k)]
         return ", ".join(words) or "none"
-    if hasattr(value, "text"):
-        return str(value.text())
     if isinstance(value, tuple) and value and isinstance(value[0], tuple):
         return steps_text(tuple((start, _plain(entry)) for start, entry in value))
     if isinstance(value, tuple | list):
         return " ".join(_plain(entry) for entry in value)
-    if isinstance(value, float):
-        return f"{value:.6g}"
-    return str(getattr(value, "name", value))
-
-
-def _ending(s: Summary) -> str:
-    return "as planned" if s.complete else f"{s.end}{': ' if s.message else ''}{s.message}"
+    if hasattr(value, "text"):
+        return str(value.text())
+    return f"{value:.6g}" if isinstance(value, float) else str(getattr(value, "name", value))
 
 
 def _walked(s: Summary, planned: float) -> Verdict:
     question, when = "Did it walk?", number(s.duration_s, 2, "s")
-    way = "" if s.path_speed_m_per_s is None else f", after {_way(s)}"
+    speed = s.path_speed_m_per_s
+    way = "" if speed is None else f"{speed * s.duration_s:.2f} m of path"
+    after = f", after {way}" if way else ""
     if s.end == End.fell:
-        return Verdict(question, "It fell", f"at {when}{way}", "bad")
+        return Verdict(question, "It fell", f"at {when}{after}", "bad")
     if s.end == End.diverged:
         return Verdict(question, "It diverged", f"at {when}: {s.message}", "bad")
     if s.end == End.interrupted:
-        return Verdict(question, "Interrupted", f"at {when} of {planned:g} s{way}", "fair")
-    if s.path_speed_m_per_s is None or s.path_speed_m_per_s < metrics.MIN_SPEED:
+        return Verdict(question, "Interrupted", f"at {when} of {planned:g} s{after}", "fair")
+    if speed is None or speed < metrics.MIN_SPEED:
         return Verdict(question, "No", f"upright, but it got nowhere in {when}", "bad")
-    return Verdict(question, "Yes", f"{_way(s)} in {when}, upright throughout", "good")
+    return Verdict(question, "Yes", f"{way} in {when}, upright throughout", "good")
 
 
 def _formed(s: Summary) -> Verdict:
-    gait = metrics.gait_name(len(s.phi_final) + 1)
-    question = f"Did the {gait} form?"
+    question = f"Did the {metrics.gait_name(len(s.phi_final) + 1)} form?"
     final = f"ended in {s.gait or 'no known gait'}: {', '.join(map(phase_text, s.phi_final))}"
     if s.end in (End.fell, End.diverged):
         return Verdict(question, DASH, "the run did not last", "plain")
     if s.converged is None:
         return Verdict(question, DASH, "too short, or no gait is known for these legs", "plain")
     if s.converged:
-        when = number(s.convergence_time_s, 1, "s")
         until = "the end" if s.complete else "the interruption"
+        when = number(s.convergence_time_s, 1, "s")
         return Verdict(question, f"After {when}", f"from touch-down, and held to {until}", "good")
     if s.convergence_time_authors_s is not None:
-        when = number(s.convergence_time_authors_s, 1, "s")
-        return Verdict(question, "Not for good", f"near it at {when}; {final}", "fair")
+        near = f"near it at {number(s.convergence_time_authors_s, 1, 's')}; {final}"
+        return Verdict(question, "Not for good", near, "fair")
     return Verdict(question, "No", final, "bad")
 
 
-def _quality(s: Summary) -> Verdict:
+def _fast(s: Summary) -> Verdict:
     stride = f"stride {number(s.stride_frequency_hz, 2, 'Hz')}"
-    cost = f"cost of transport {number(s.cost_of_transport)}"
+    detail = f"{stride}, cost of transport {number(s.cost_of_transport)}"
     speed = number(s.path_speed_m_per_s, 3, "m/s")
-    detail = f"along the path, turned {_turned(s)}; {stride}, {cost}"
-    return Verdict("How fast?", speed, detail, "plain")
-
-
-def _way(s: Summary) -> str:
-    return f"{(s.path_speed_m_per_s or 0.0) * s.duration_s:.2f} m of path"
+    return Verdict("How fast?", speed, f"along the path, turned {_turned(s)}; {detail}", "plain")
 
 
 def _turned(s: Summary) -> str:
@@ -194,9 +171,5 @@ def _turned(s: Summary) -> str:
     return f"{abs(s.turned_deg):.0f}° to the {side}" if abs(s.turned_deg) >= 0.5 else "0°"
 
 
-def _by_leg(values: dict[str, float | None], digits: int = 2) -> str:
+def _by_leg(values: dict[str, float | None], digits: int) -> str:
     return ", ".join(f"{leg}{_SPACE}{number(value, digits)}" for leg, value in values.items())
-
-
-def _percent(share: float | None) -> str:
-    return DASH if share is None else f"{100 * share:.1f}{_SPACE}%"
