@@ -12,8 +12,8 @@ from apnc.report.panels import Array, Run
 from apnc.report.skeleton import in_ground, leg_chains, trunk_corners
 from exudyn_models.ground import Surface
 
-MARGIN: Final = 1.3
-"""Width of the ground that is drawn around the path [m]."""
+REACH: Final = 4.5
+"""Ground that is drawn around the robot, in diagonals of it from above."""
 
 AREA: Final = 60.0
 """Ground that is drawn at most [m²], around the end of the path: 2 MB."""
@@ -33,14 +33,17 @@ def animation_data(run: Run) -> dict[str, Any]:
     record, at, plant = run.record, run.samples.at, run.shown
     ground, opens = record.experiment.ground, run.samples.opens_at
     track = in_ground(ground, plant["position"]) * [1.0, 1.0, 0.0]
-    lines = _lines(ground, track)
+    corners, chains = trunk_corners(record.robot, plant), leg_chains(record.robot, plant)
+    outline = np.concatenate([corners[0], chains[0, :, -1]])
+    reach = REACH * float(np.linalg.norm(np.ptp(outline, axis=0)[:2]))
+    lines = _lines(ground, track, reach)
     arrays = {
         "position": plant["position"],
         "rpy": plant["rpy"],
         "focus": metrics.smooth(record.plant["position"])[at],
         "track": track @ ground.rotation().T,
-        "corners": trunk_corners(record.robot, plant),
-        "chains": leg_chains(record.robot, plant),
+        "corners": corners,
+        "chains": chains,
         "force": plant["foot_force"],
         "ground": _joined(ground, [points for points in lines if not _is_landmark(points)]),
         "landmarks": _joined(ground, [points for points in lines if _is_landmark(points)]),
@@ -51,6 +54,7 @@ def animation_data(run: Run) -> dict[str, Any]:
         "count": len(at),
         "opensAt": 0 if opens is None else int(np.searchsorted(at, opens)),
         "weight": record.mass * metrics.GRAVITY,
+        "reach": reach,
         "radius": record.robot.contact.foot_radius,
         "normal": ground.rotation()[:, 2].tolist(),
         "stance": packed(run.standing[at], "u1"),
@@ -58,11 +62,11 @@ def animation_data(run: Run) -> dict[str, Any]:
     }
 
 
-def _lines(ground: Surface, path: Array) -> list[Array]:
+def _lines(ground: Surface, path: Array, reach: float) -> list[Array]:
     """Lines of the ground around the path, or its end, in the frame of the ground."""
-    low, high = path[:, :2].min(axis=0) - MARGIN, path[:, :2].max(axis=0) + MARGIN
+    low, high = path[:, :2].min(axis=0) - reach, path[:, :2].max(axis=0) + reach
     if np.prod(high - low) > AREA and len(path) > 1:
-        return _lines(ground, path[len(path) // 2 :])
+        return _lines(ground, path[len(path) // 2 :], reach)
     return ground.lines(low[0], high[0], low[1], high[1])
 
 

@@ -83,7 +83,11 @@ def rows(s: Summary) -> list[tuple[str, str, str]]:
         ("Net displacement", number(s.distance_m, 2, "m"), "along the first heading"),
         ("Simulated", number(s.duration_s, 2, "s"), ": ".join(filter(None, (s.end, s.message)))),
         (f"{target}, strict", number(s.convergence_time_s, 2, "s"), strict),
-        (f"{target}, authors", number(s.convergence_time_authors_s, 2, "s"), "first within 2.8 rad"),
+        (
+            f"{target}, authors",
+            number(s.convergence_time_authors_s, 2, "s"),
+            "first within 2.8 rad",
+        ),
         ("Final gait", s.gait or DASH, ", ".join(phases)),
         ("Gait stored", number(s.stored_at_s, 2, "s"), "neural couplings first on"),
         ("Stride frequency", number(s.stride_frequency_hz, 2, "Hz"), "cycles of the oscillators"),

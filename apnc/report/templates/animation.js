@@ -21,7 +21,7 @@
     for (let leg = 0; leg < n; leg++) {
       const bar = (style, a, b) => { c.fillStyle = style; c.fillRect(a, leg * row + 2, b - a, row - 4); };
       bar("#f1f3f6", left, width);
-      for (let i = from; i < to; i++) if (scene.stance[i * n + leg]) bar("#111418", x(time[i]), x(time[i + 1]) + 0.5);
+      for (let i = from; i < to; i++) if (scene.stance[i * n + leg]) bar("#111418", x(time[i]), x(time[i + 1]) + 1);
       c.fillStyle = scene.colours[leg]; c.fillText(scene.legs[leg], 4, (leg + 0.5) * row);
     }
     c.font = "11px system-ui, sans-serif"; c.fillStyle = "#5b6673"; c.textAlign = "center";

@@ -4,11 +4,6 @@ apnc.Scene = class {
   constructor(canvas, source) {
     Object.assign(this, source, { canvas, n: source.legs.length, zoom: 1, stance: apnc.unpack(source.stance, Uint8Array) });
     for (const [name, text] of Object.entries(source.arrays)) this[name] = apnc.unpack(text, Float32Array);
-    // The robot as it stands at the start fills the same part of the picture, whatever its size.
-    const points = [0, 7].map((k) => this.vector(this.corners, k)).concat(source.legs.map((_, leg) => this.point(0, leg, 3)));
-    const span = (k) => Math.max(...points.map((p) => p[k])) - Math.min(...points.map((p) => p[k]));
-    this.size = Math.hypot(span(0), span(1));
-    this.reach = 4.5 * this.size;
     this.above = this.focus[2] - this.track[2];
     this.prints = this.footprints();
     this.view("3d");
@@ -52,7 +47,7 @@ apnc.Scene = class {
   draw(i) {
     [this.context, this.width, this.height] = this.prepare(this.canvas);
     this.context.lineCap = this.context.lineJoin = "round";
-    this.scale = (0.5 * Math.min(this.height, 0.7 * this.width) / this.size) * this.zoom;
+    this.scale = (2.7 * Math.min(this.height, 0.7 * this.width) / this.reach) * this.zoom;
     this.centre = this.vector(this.focus, i);
     this.surface();
     this.past(i);
