@@ -82,12 +82,13 @@ class Record:
 
 @dataclass(frozen=True)
 class Column:
-    """One column of ``record.csv``: its name, unit, frame and meaning."""
+    """One column of ``record.csv``: its name, unit, frame, meaning, and what positive means."""
 
     name: str
     unit: str
     frame: str
     description: str
+    sign: str = ""
 
 
 _TIME: Final = Column("time", "s", "", "start of the tick")
@@ -110,6 +111,8 @@ def _columns(record: Record) -> Iterator[tuple[Column, Array]]:
     yield _TIME, record.time
     described = {variable.name: variable for variable in TABLE}
     for name, values in record.controller.items():
+        if name in record.plant:  # the load is what the plant delivered
+            continue
         variable = described[name]
         entries = values.reshape(len(record), values.shape[1] if values.ndim > 1 else 1)
         for entry, label in enumerate(_labels(variable, record.legs)):
@@ -119,7 +122,9 @@ def _columns(record: Record) -> Iterator[tuple[Column, Array]]:
         names = channel.columns(record.legs)
         entries = record.plant[channel.name].reshape(len(record), len(names))
         for entry, label in enumerate(names):
-            column = Column(label, channel.unit, channel.frame, channel.description)
+            column = Column(
+                label, channel.unit, channel.frame, channel.description, channel.sign
+            )
             yield column, entries[:, entry]
 
 

@@ -1,5 +1,1 @@
-"""The report of one run: a single HTML file with plots and an animation, readable offline."""
-
-from apnc.report.page import write_report
-
-__all__ = ["write_report"]
+"""Reports: one HTML file with plots that is readable offline, and the folder of a run."""

@@ -1,41 +1,83 @@
-"""What the animation draws, packed for the browser: legs, trunk, forces, contacts."""
+"""What the animation draws, packed for the browser: ground, legs, trunk, forces, contacts."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
+
+import numpy as np
 
 from apnc import metrics
-from apnc.loop.recording import Record
 from apnc.report.encoding import packed
-from apnc.report.skeleton import leg_chains, trunk_box
-from apnc.report.theme import leg_colours
-from exudyn_models.robot.model import RobotDescription
+from apnc.report.panels import Array, Run
+from apnc.report.skeleton import in_ground, leg_chains, trunk_corners
+from exudyn_models.ground import Surface
+
+REACH: Final = 4.5
+"""Ground that is drawn around the robot, in diagonals of it from above."""
+
+AREA: Final = 60.0
+"""Ground that is drawn at most [m²], around the end of the path: 2 MB."""
+
+LANDMARK: Final = 0.5
+"""Straight lines at multiples of this are drawn stronger and show the progress [m]."""
 
 
-def animation_data(record: Record, robot: RobotDescription | None) -> dict[str, Any]:
-    """Everything the animation needs, arrays in base64.
+def animation_data(run: Run) -> dict[str, Any]:
+    """Everything the animation needs, in the world frame, arrays in base64.
 
-    Args:
-        record: the run.
-        robot: geometry of legs and trunk, None for straight legs.
-
-    Keys: ``time`` (T,), ``position`` and ``rpy`` (T, 3), ``chains`` (T, n, 4, 3), ``force``
-    (T, n, 3) as 32-bit floats; ``stance`` (T, n) as bytes.
+    Keys with an entry per shown sample: ``position``, ``rpy``, ``focus`` (what the camera looks at)
+    and ``track`` (the trunk, on the ground) of 3, ``corners`` of (8, 3), ``chains`` of (n, 4, 3)
+    and ``force`` of (n, 3) 32-bit floats; ``stance`` of n bytes. ``ground`` and ``landmarks`` are
+    points of lines, with NaN between two lines.
     """
-    plant = record.plant
-    colours = leg_colours(record.legs)
-    size, center = trunk_box(record, robot)
+    record, at, plant = run.record, run.samples.at, run.shown
+    ground, opens = record.experiment.ground, run.samples.opens_at
+    track = in_ground(ground, plant["position"]) * [1.0, 1.0, 0.0]
+    corners, chains = trunk_corners(record.robot, plant), leg_chains(record.robot, plant)
+    outline = np.concatenate([corners[0], chains[0, :, -1]])
+    reach = REACH * float(np.linalg.norm(np.ptp(outline, axis=0)[:2]))
+    lines = _lines(ground, track, reach)
+    arrays = {
+        "position": plant["position"],
+        "rpy": plant["rpy"],
+        "focus": metrics.smooth(record.plant["position"])[at],
+        "track": track @ ground.rotation().T,
+        "corners": corners,
+        "chains": chains,
+        "force": plant["foot_force"],
+        "ground": _joined(ground, [points for points in lines if not _is_landmark(points)]),
+        "landmarks": _joined(ground, [points for points in lines if _is_landmark(points)]),
+    }
     return {
         "legs": list(record.legs),
-        "colours": [colours[leg] for leg in record.legs],
-        "count": len(record),
+        "colours": list(run.colours.values()),
+        "count": len(at),
+        "opensAt": 0 if opens is None else int(np.searchsorted(at, opens)),
         "weight": record.mass * metrics.GRAVITY,
-        "trunk": size,
-        "trunkCenter": center,
-        "time": packed(record.time, "<f4"),
-        "position": packed(plant["position"], "<f4"),
-        "rpy": packed(plant["rpy"], "<f4"),
-        "chains": packed(leg_chains(record, robot), "<f4"),
-        "force": packed(plant["foot_force"], "<f4"),
-        "stance": packed(metrics.stance(plant["foot_force"][..., 2]), "u1"),
+        "reach": reach,
+        "radius": record.robot.contact.foot_radius,
+        "normal": ground.rotation()[:, 2].tolist(),
+        "stance": packed(run.standing[at], "u1"),
+        "arrays": {name: packed(values, "<f4") for name, values in arrays.items()},
     }
+
+
+def _lines(ground: Surface, path: Array, reach: float) -> list[Array]:
+    """Lines of the ground around the path, or its end, in the frame of the ground."""
+    low, high = path[:, :2].min(axis=0) - reach, path[:, :2].max(axis=0) + reach
+    if np.prod(high - low) > AREA and len(path) > 1:
+        return _lines(ground, path[len(path) // 2 :], reach)
+    return ground.lines(low[0], high[0], low[1], high[1])
+
+
+def _is_landmark(points: Array) -> bool:
+    steps = points[0, :2] / LANDMARK
+    straight = np.ptp(points[:, :2], axis=0) == 0.0
+    return bool((straight & (np.abs(steps - np.round(steps)) < 1e-9)).any())
+
+
+def _joined(ground: Surface, lines: list[Array]) -> Array:
+    gap = np.full((1, 3), np.nan)
+    return np.concatenate([gap, *(part for points in lines for part in (points, gap))]) @ (
+        ground.rotation().T
+    )

@@ -1,280 +1,252 @@
-"""The plots of the report, as plain plotly figures; time plots share one time vector."""
+"""The panels of a walk's report."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from apnc import metrics
-from apnc.loop.recording import Record
 from apnc.report import theme
 from apnc.report.encoding import float32
-from apnc.report.panels import leg_panels
-from apnc.summary import Summary
-
-Trace = dict[str, Any]
+from apnc.report.figure import Figure, Trace
+from apnc.report.panels import Array, Run, line, stacked
+from apnc.report.skeleton import clearance, in_ground
+from exudyn_models.channels import JOINTS
 
 PI_TICKS: Final = {
     "tickvals": [-np.pi / 2, 0.0, np.pi / 2, np.pi, 3 * np.pi / 2],
     "ticktext": ["−π/2", "0", "π/2", "π", "3π/2"],
 }
-# A jump larger than this between two samples is the cut of the display, not motion.
-_CUT: Final = np.pi
 
 
-@dataclass(frozen=True)
-class Figure:
-    """One plot: element id, heading, a line on how to read it, traces, layout, kind of x-axis."""
-
-    key: str
-    title: str
-    note: str
-    data: list[Trace]
-    layout: dict[str, Any]
-    over_time: bool = True
+def all_figures(run: Run) -> list[Figure]:
+    """Every panel in reading order."""
+    makers = (gait, phases, speed, path, trunk, clearances, loads, outputs, gains, stability)
+    joints = [angles(run, "hip", "leg"), angles(run, "knee", "foot")]
+    return [*(make(run) for make in makers), *joints, torques(run)]
 
 
-def all_figures(record: Record, summary: Summary) -> list[Figure]:
-    """Every plot of the report in reading order."""
-    makers: list[Callable[[Record, Summary], Figure]] = [
-        gait,
-        phases,
-        loads,
-        outputs,
-        gains,
-        stability,
-        speed,
-        torques,
-        path,
-    ]
-    return [make(record, summary) for make in makers]
+def over_time(key: str, title: str, note: str, data: list[Trace], y: Any, **more: Any) -> Figure:
+    """A figure of one panel over time."""
+    layout = theme.layout(more.pop("height", 260), xaxis=theme.axis("time [s]"), yaxis=y, **more)
+    return Figure(key, title, note, data, layout)
 
 
-def line(y: NDArray[np.float64], name: str, colour: str, **more: Any) -> Trace:
-    """Line over the shared time vector."""
-    style = {"color": colour, "width": more.pop("width", 1.6), "dash": more.pop("dash", "solid")}
-    return {"type": "scatter", "mode": "lines", "y": float32(y), "name": name, "line": style} | more
-
-
-def gait(record: Record, _: Summary) -> Figure:
-    """Gait diagram: black bars where a foot stands."""
-    colours = theme.leg_colours(record.legs)
-    standing = metrics.stance(record.plant["foot_force"][..., 2])
-    tick = float(np.median(np.diff(record.time))) if len(record) > 1 else 0.0
-    bars = [_bars(record, leg, standing[:, i], tick) for i, leg in enumerate(record.legs)]
-    rows = {
-        "categoryorder": "array",
-        "categoryarray": list(reversed(record.legs)),
-        "tickvals": list(record.legs),
-        "ticktext": [f'<b style="color:{colours[leg]}">{leg}</b>' for leg in record.legs],
-        "fixedrange": True,
-        "showgrid": False,
-    }
-    layout = theme.layout(
-        90 + 32 * record.n_legs,
-        xaxis=theme.axis("time [s]"),
-        yaxis=theme.axis("leg", type="category", **rows),
-        showlegend=False,
-        barmode="overlay",
+def gait(run: Run) -> Figure:
+    """Gait diagram: a bar where a foot stands."""
+    n, target = run.record.n_legs, metrics.gait_name(run.record.n_legs)
+    names = [f'<b style="color:{colour}">{leg}</b>' for leg, colour in run.colours.items()]
+    rows = {"tickvals": list(range(n)), "ticktext": names, "range": [n - 0.4, -0.6]}
+    return over_time(
+        "gait",
+        "Gait diagram",
+        f"Black: the foot stands. Legs that are in phase in the {target} stand together.",
+        [*(_bars(run, row) for row in range(n)), _second_touches(run)],
+        theme.axis("leg", fixedrange=True, showgrid=False, **rows),
+        height=90 + 32 * n,
         hovermode="closest",
-        margin={"l": 74, "r": 46, "t": 30, "b": 44},
     )
-    note = "Black: the foot stands. In a trot diagonal legs stand together (RF with LH)."
-    return Figure("gait", "Gait diagram", note, bars, layout)
 
 
-def phases(record: Record, summary: Summary) -> Figure:
+def phases(run: Run) -> Figure:
     """Relative phases against the target gait and the tolerance of the strict criterion."""
-    colours = theme.leg_colours(record.legs)
-    smoothed = metrics.relative_phases(record.controller["o1"], record.controller["o2"])
-    traces: list[Trace] = []
-    for k, leg in enumerate(record.legs[1:]):
-        name = f"φ1{k + 2} ({record.legs[0]}–{leg})"
-        own = {"width": 1, "dash": "dot", "visible": "legendonly"}
-        seen = record.controller["phi"][:, k]
-        traces.append(line(_uncut(smoothed[:, k]), name, colours[leg], width=2.4))
-        traces.append(line(_uncut(seen), f"φ1{k + 2} in the FMU", colours[leg], **own))
-    layout = theme.layout(
-        330,
-        xaxis=theme.axis("time [s]"),
-        yaxis=theme.axis("relative phase [rad]", range=[-np.pi / 2, 3 * np.pi / 2], **PI_TICKS),
-        shapes=_targets(summary),
+    c, legs, target = run.record.controller, run.record.legs, run.summary.phi_target
+    smoothed = metrics.relative_phases(c["o1"], c["o2"])
+    own = {"width": 1, "dash": "dot", "visible": "legendonly"}
+    traces = []
+    for k, leg in enumerate(legs[1:]):
+        for name, phi, style in (
+            (f"φ1{k + 2} ({legs[0]}–{leg})", smoothed[:, k], {"width": 2.4}),
+            (f"φ1{k + 2} in the FMU", c["phi"][:, k], own),
+        ):
+            traces.append(line(_uncut(run.samples.of(phi)), name, run.colours[leg], **style))
+    levels = sorted({round(float(metrics.wrap_for_display(phi)), 6) for phi in target or ()})
+    return over_time(
+        "phi",
+        "Relative phases",
+        f"Smoothed over 1.5 s; positive where the leg is ahead of {legs[0]}. Dashed: target gait "
+        f"({metrics.gait_name(len(legs))}) with the ±{metrics.STRICT_TOLERANCE} rad of the strict "
+        "criterion. Dotted, by a click on the legend: the phase that the FMU estimates.",
+        traces,
+        theme.axis("relative phase [rad]", range=[-np.pi / 2, 3 * np.pi / 2], **PI_TICKS),
+        height=330,
+        shapes=[
+            *(_level(y, "rect", metrics.STRICT_TOLERANCE) for y in levels),
+            *(_level(y) for y in levels),
+        ],
     )
-    note = (
-        "Smoothed over 1.5 s. Dashed: target gait, with the ±0.6 rad band of the strict criterion. "
-        "Click a legend entry to add the phase the FMU itself estimates."
-    )
-    return Figure("phi", "Relative phases", note, traces, layout)
 
 
-def loads(record: Record, _: Summary) -> Figure:
-    """Vertical ground force and sensor signal, one row per leg."""
-    force = record.plant["foot_force"][..., 2]
-    sensed = record.plant["grf"]
-    series = [("ground", force, 1.6, "solid", 1.0), ("sensor", sensed, 1.2, "dot", 0.8)]
-    data, layout = leg_panels(record.legs, series, "GRF [N]", _load_range(record))
-    note = (
-        "Solid: force of the ground on the foot. Dotted: what the foot sensor tells the FMU. "
-        "The frame is made for the loads of walking and cuts off impact peaks; Autoscale shows all."
-    )
-    return Figure("grf", "Ground reaction forces", note, data, layout)
-
-
-def outputs(record: Record, _: Summary) -> Figure:
-    """CPG outputs, one row per leg."""
-    c = record.controller
-    series = [("o1 (hip)", c["o1"], 1.8, "solid", 1.0), ("o2 (knee)", c["o2"], 1.2, "dot", 0.9)]
-    data, layout = leg_panels(record.legs, series, "output [1]", (-1.2, 1.2))
-    return Figure("cpg", "CPG outputs", "o1 drives the hip, o2 the knee.", data, layout)
-
-
-def gains(record: Record, _: Summary) -> Figure:
-    """Adaptive feedback gain gamma per leg."""
-    colours = theme.leg_colours(record.legs)
-    gamma = record.controller["gamma"]
-    traces = [line(gamma[:, i], leg, colours[leg]) for i, leg in enumerate(record.legs)]
-    layout = theme.layout(
-        260, xaxis=theme.axis("time [s]"), yaxis=theme.axis("γ [1]", rangemode="tozero")
-    )
-    note = "Gain of the load feedback on each CPG (Eq. 9), learned while walking."
-    return Figure("gamma", "Sensory feedback gain γ", note, traces, layout)
-
-
-def stability(record: Record, _: Summary) -> Figure:
-    """Phase variance d and switch kappa of the neural coupling."""
-    d = line(record.controller["d"], "d, left axis", theme.INK)
-    switch = {"dash": "solid", "yaxis": "y2", "fill": "tozeroy", "width": 1.6}
-    kappa = line(record.controller["kappa"], "κ, right axis", theme.VERMILLION, **switch)
-    kappa["fillcolor"] = "rgba(213, 94, 0, 0.10)"
-    kappa["line"]["shape"] = "hv"
-    right = theme.axis(
-        "κ [1]",
-        overlaying="y",
-        side="right",
-        range=[0, 1.08],
-        showgrid=False,
-        tickvals=[0, 1],
-        tickmode="array",
-    )
-    layout = theme.layout(
-        260,
-        xaxis=theme.axis("time [s]"),
-        yaxis=theme.axis("d [rad]", rangemode="tozero"),
-        yaxis2=right,
-    )
-    note = "κ = 1: the neural coupling (ANC) holds the stored phases. d: how much they still vary."
-    return Figure("kappa", "Phase stability d and coupling switch κ", note, [kappa, d], layout)
-
-
-def speed(record: Record, summary: Summary) -> Figure:
-    """Forward speed over time, raw and smoothed, with the mean."""
-    plant = record.plant
+def speed(run: Run) -> Figure:
+    """Speed along the heading, raw and smoothed, and the mean along the path."""
+    plant, mean = run.record.plant, run.summary.path_speed_m_per_s
     yaw = plant["rpy"][:, 2]
     raw = plant["velocity"][:, 0] * np.cos(yaw) + plant["velocity"][:, 1] * np.sin(yaw)
-    slow = metrics.smoothed_speed(record.time, plant["position"], yaw)
-    traces = [
-        line(raw, "trunk", theme.SKY, width=0.8, opacity=0.55),
-        line(slow, "smoothed over 1.5 s", theme.BLUE, width=2.4),
-    ]
-    mean = summary.speed_m_per_s
-    shapes = [] if mean is None else [_level(mean)]
-    layout = theme.layout(
-        260,
-        xaxis=theme.axis("time [s]"),
-        yaxis=theme.axis("speed [m/s]", rangemode="tozero"),
-        shapes=shapes,
+    slow = metrics.smoothed_speed(run.record.time, plant["position"], yaw)
+    return over_time(
+        "speed",
+        "Forward speed",
+        "Along the present heading. Dashed: mean along the path.",
+        [
+            run.line(raw, "trunk", theme.SKY, width=0.8, opacity=0.55),
+            run.line(slow, "smoothed over 1.5 s", theme.BLUE, width=2.4),
+        ],
+        theme.axis("speed [m/s]", rangemode="tozero"),
+        shapes=[] if mean is None else [_level(mean)],
     )
-    note = "Along the current heading. Dashed: mean over the run, along the initial heading."
-    return Figure("speed", "Forward speed", note, traces, layout)
 
 
-def torques(record: Record, _: Summary) -> Figure:
-    """Hip and knee torque, one row per leg."""
-    torque = record.plant["joint_torque"]
-    series = [
-        ("hip", torque[..., 1], 1.6, "solid", 1.0),
-        ("knee", torque[..., 2], 1.2, "dot", 0.9),
-    ]
-    data, layout = leg_panels(record.legs, series, "torque [N m]")
-    return Figure("torque", "Joint torques", "Torque of the servos.", data, layout)
-
-
-def path(record: Record, _: Summary) -> Figure:
+def path(run: Run) -> Figure:
     """Trunk path from above, equal axes, start and end marked."""
-    x, y = record.plant["position"][:, 0], record.plant["position"][:, 1]
-    track = line(y, "trunk path", theme.BLUE) | {"x": float32(x)}
-    ends = [
-        _marker(x[:1], y[:1], "start", "circle-open", theme.GREEN),
-        _marker(x[-1:], y[-1:], "end", "circle", theme.VERMILLION),
+    x, y = run.shown["position"][:, :2].T
+    traces = [
+        line(y, "trunk", theme.BLUE) | {"x": float32(x)},
+        _points(x[:1], y[:1], "start", "circle-open", theme.GREEN),
+        _points(x[-1:], y[-1:], "end", "circle", theme.VERMILLION),
     ]
-    layout = theme.layout(
-        330,
-        xaxis=theme.axis("x [m]"),
-        yaxis=theme.axis("y [m]", scaleanchor="x", scaleratio=1),
-        hovermode="closest",
+    equal = theme.axis("y [m]", scaleanchor="x", scaleratio=1)
+    layout = theme.layout(330, xaxis=theme.axis("x [m]"), yaxis=equal, hovermode="closest")
+    note = "Seen from above, equal scales; the robot starts along x."
+    return Figure("path", "Path of the trunk", note, traces, layout, over_time=False)
+
+
+def trunk(run: Run) -> Figure:
+    """Height over the ground and attitude of the trunk."""
+    plant = run.record.plant
+    height = in_ground(run.record.experiment.ground, plant["position"])[:, 2]
+    angles = np.degrees(np.unwrap(plant["rpy"], axis=0)).T
+    names = ("height [m]", "roll [°]", "pitch [°]", "yaw [°]")
+    note = (
+        "Height over the plane of the ground; angles against the horizontal. Positive: left side "
+        "up (roll), nose down (pitch), to the left (yaw)."
     )
-    note = "Seen from above, equal scales."
-    return Figure("path", "Trunk path", note, [track, *ends], layout, over_time=False)
+    rows = [
+        (name, [run.line(values, name, theme.BLUE, showlegend=False)])
+        for name, values in zip(names, [height, *angles], strict=True)
+    ]
+    return stacked("trunk", "Height and attitude of the trunk", note, rows)
 
 
-def _bars(record: Record, leg: str, standing: NDArray[np.bool_], tick: float) -> Trace:
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], standing.astype(np.int8), [0]])))
-    begins, ends = edges[::2], edges[1::2]
-    return {
-        "type": "bar",
-        "orientation": "h",
-        "name": leg,
-        "base": [round(float(b), 4) for b in record.time[begins]],
-        "x": [round(float(length), 4) for length in (ends - begins) * tick],
-        "y": [leg] * len(begins),
-        "width": 0.62,
-        "marker": {"color": "#111418", "line": {"width": 0}},
-        "hovertemplate": f"{leg} stands for %{{x:.2f}} s<extra></extra>",
-    }
+def clearances(run: Run) -> Figure:
+    """Height of the feet over the ground."""
+    robot, ground = run.record.robot, run.record.experiment.ground
+    gap = 1000.0 * clearance(ground, robot, run.shown["foot_position"])
+    rows = [
+        (f"<b>{leg}</b> [mm]", [line(gap[:, i], leg, colour, showlegend=False)])
+        for i, (leg, colour) in enumerate(run.colours.items())
+    ]
+    note = "Lowest point of the foot over the ground below it; negative where the foot sinks in."
+    return stacked("clearance", "Foot clearance", note, rows, matches="y")
 
 
-def _load_range(record: Record) -> tuple[float, float]:
-    force = record.plant["foot_force"][..., 2]
+def loads(run: Run) -> Figure:
+    """Vertical ground force and sensor signal."""
+    force = run.record.plant["foot_force"][..., 2]
     # A handful of impacts may be ten times the load of a step and would flatten every step.
-    usual = float(np.quantile(force, 0.995))
-    return -0.05 * usual, max(1.2 * usual, 1.0)
+    usual = max(float(np.nanquantile(force, 0.995)), 1.0)
+    series = {"force of the ground": force, "sensor": run.record.plant["grf"]}
+    note = (
+        "Vertical force of the ground on the foot, and what the sensor of the foot tells the FMU. "
+        "The rows cut off impact peaks; Autoscale shows them."
+    )
+    limits = [-0.05 * usual, 1.2 * usual]
+    return run.leg_rows("grf", "Ground reaction forces", "N", series, note, range=limits)
 
 
-def _targets(summary: Summary) -> list[Trace]:
-    levels = sorted({round(t, 6) for t in summary.phi_target or ()})
-    return [shape for level in levels for shape in (_band(level), _level(level))]
+def outputs(run: Run) -> Figure:
+    """CPG outputs."""
+    series = {"o1 (hip)": run.record.controller["o1"], "o2 (knee)": run.record.controller["o2"]}
+    note = "o1 drives the hip, o2 the knee."
+    return run.leg_rows("cpg", "CPG outputs", "1", series, note, range=[-1.2, 1.2])
 
 
-def _level(y: float) -> Trace:
-    style = {"color": theme.GREY, "width": 1.2, "dash": "dash"}
-    return {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": y, "y1": y, "line": style}
+def gains(run: Run) -> Figure:
+    """Adaptive feedback gain gamma per leg."""
+    gamma = run.record.controller["gamma"].T
+    lines = [run.line(g, *leg) for g, leg in zip(gamma, run.colours.items(), strict=True)]
+    note = "Gain of the load feedback on each CPG, learned while walking (Eq. 9)."
+    axis = theme.axis("γ [1]", rangemode="tozero")
+    return over_time("gamma", "Sensory feedback gain γ", note, lines, axis)
 
 
-def _band(y: float, half: float = metrics.STRICT_TOLERANCE) -> Trace:
-    fill = {"fillcolor": theme.BAND, "line": {"width": 0}, "layer": "below"}
-    return {
-        "type": "rect",
-        "xref": "paper",
-        "x0": 0,
-        "x1": 1,
-        "y0": y - half,
-        "y1": y + half,
-    } | fill
+def stability(run: Run) -> Figure:
+    """Phase variance d and switch kappa of the neural coupling."""
+    d = run.line(run.record.controller["d"], "d, left axis", theme.INK)
+    area = {"yaxis": "y2", "fill": "tozeroy", "fillcolor": "rgba(213, 94, 0, 0.10)"}
+    kappa = run.line(run.record.controller["kappa"], "κ, right axis", theme.VERMILLION, **area)
+    kappa["line"]["shape"] = "hv"
+    right = {"overlaying": "y", "side": "right", "range": [0, 1.08], "tickvals": [0, 1]}
+    return over_time(
+        "kappa",
+        "Phase stability d and coupling switch κ",
+        "κ = 1: the neural coupling (ANC) holds the stored phases. d: how much they still vary.",
+        [kappa, d],
+        theme.axis("d [rad]", rangemode="tozero"),
+        yaxis2=theme.axis("κ [1]", showgrid=False, **right),
+    )
 
 
-def _uncut(phase: NDArray[np.float64]) -> NDArray[np.float64]:
+def angles(run: Run, joint: str, part: str) -> Figure:
+    """Commanded and actual angles of a joint, which swings a part of the leg."""
+    actual = run.record.plant["joint_angle"][..., JOINTS.index(joint)]
+    commanded = run.record.controller[f"theta_{joint}"]
+    series = {"actual": np.degrees(actual), "commanded": np.degrees(commanded)}
+    note = (
+        f"Against the reference pose; positive swings the {part} forward. Commanded: by the FMU, "
+        "before the limits of the servo and damage."
+    )
+    return run.leg_rows(joint, f"{joint.capitalize()} angles", "°", series, note)
+
+
+def torques(run: Run) -> Figure:
+    """Hip and knee torque."""
+    torque = run.record.plant["joint_torque"]
+    series = {joint: torque[..., JOINTS.index(joint)] for joint in ("hip", "knee")}
+    note = "Torque of the servos on the joints, positive in the direction of positive angles."
+    return run.leg_rows("torque", "Joint torques", "N m", series, note)
+
+
+def _bars(run: Run, row: int) -> Trace:
+    record, standing = run.record, run.standing[:, row].astype(np.int8)
+    edges = np.flatnonzero(np.diff(standing, prepend=0, append=0))
+    ends = np.append(record.time, record.ended_at)[edges]
+    # One broken line instead of thousands of bars: a long run stays quick.
+    x = np.insert(ends, np.arange(2, len(ends) + 1, 2), np.nan)
+    bars = line(np.full(len(x), float(row)), record.legs[row], theme.BLACK, width=20)
+    hover = f"{record.legs[row]}, %{{x:.2f}} s<extra></extra>"
+    return bars | {"x": float32(x), "showlegend": False, "hovertemplate": hover}
+
+
+def _second_touches(run: Run) -> Trace:
+    """Marks where a foot comes down again in the same cycle of its oscillator."""
+    c, x, y = run.record.controller, [], []
+    starts = metrics.cycle_starts(c["o1"], c["o2"])
+    for row, (stands, start) in enumerate(zip(run.standing.T, starts, strict=True)):
+        downs = np.flatnonzero(stands[1:] & ~stands[:-1]) + 1
+        again = downs[1:][np.diff(np.searchsorted(start, downs, side="right")) == 0]
+        x += run.record.time[again].tolist()
+        y += [float(row)] * len(again)
+    name = "second touch-down in a cycle"
+    return _points(np.array(x), np.array(y), name, "diamond", theme.VERMILLION, 9)
+
+
+def _level(y: float, kind: str = "line", half: float = 0.0) -> Trace:
+    """A dashed line, or a faint band, across the whole width."""
+    edge = {"color": theme.GREY, "width": 0 if half else 1.2, "dash": "dash"}
+    look = {"fillcolor": theme.BAND, "layer": "below"} if half else {}
+    span = {"xref": "paper", "x0": 0, "x1": 1, "y0": y - half, "y1": y + half}
+    return {"type": kind, "line": edge, **span, **look}
+
+
+def _uncut(phase: Array) -> Array:
+    """The phase as shown, without the strokes where it leaves on one side and comes back."""
     shown = metrics.wrap_for_display(phase)
-    shown[1:][np.abs(np.diff(shown)) > _CUT] = np.nan
+    shown[1:][np.abs(np.diff(shown)) > np.pi] = np.nan
     return shown
 
 
-def _marker(
-    x: NDArray[np.float64], y: NDArray[np.float64], name: str, symbol: str, colour: str
-) -> Trace:
-    style = {"symbol": symbol, "size": 12, "color": colour, "line": {"width": 2.5}}
-    points = {"x": float32(x), "y": float32(y)}
-    return {"type": "scatter", "mode": "markers", "name": name, "marker": style} | points
+def _points(x: Array, y: Array, name: str, symbol: str, colour: str, size: int = 12) -> Trace:
+    style = {"symbol": symbol, "size": size, "color": colour, "line": {"width": 2}}
+    at = {"x": float32(x), "y": float32(y)}
+    return {"type": "scatter", "mode": "markers", "name": name, "marker": style} | at

@@ -5,19 +5,23 @@ from __future__ import annotations
 import json
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Final
 
 from apnc.loop.csv_file import write_csv
 from apnc.loop.provenance import what_was_run
-from apnc.loop.record import Record
+from apnc.loop.record import Record, column_names
 from apnc.report.page import render
-from apnc.summary import summarise
+from apnc.summary import Summary, summarise
 
 Write = Callable[[Path], object]
 
+_ASIDE: Final = ".writing-"
 
-def write_together(folder: Path, files: dict[str, Write]) -> None:
+
+def write_together(folder: Path, files: Mapping[str, Write]) -> None:
     """Write files aside and put them in place when all of them are whole.
 
     Args:
@@ -26,39 +30,71 @@ def write_together(folder: Path, files: dict[str, Write]) -> None:
 
     Raises:
         OSError: a file cannot be written; it names the file, and the folder is as it was before.
+
+    Pitfall: what a killed writer left aside is removed, so only one may write at a time.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    aside = Path(tempfile.mkdtemp(prefix=".writing-", dir=folder))
+    for left in folder.glob(f"{_ASIDE}*"):
+        shutil.rmtree(left, ignore_errors=True)
+    aside = Path(tempfile.mkdtemp(prefix=_ASIDE, dir=folder))
     try:
         for name, write in files.items():
-            try:
+            with _naming(folder / name):
                 write(aside / name)
-            except OSError as error:
-                raise OSError(error.errno, error.strerror, str(folder / name)) from error
-        for name in files:
-            (aside / name).replace(folder / name)
+        _exchange(aside, folder, list(files))
     finally:
         shutil.rmtree(aside, ignore_errors=True)
 
 
-def write_run(record: Record, folder: Path | str) -> None:
+def _exchange(aside: Path, folder: Path, names: list[str]) -> None:
+    """Move the new files in; the older ones leave first, so that the two never stand together."""
+    older = aside / "older"
+    older.mkdir()
+    done: list[tuple[Path, Path]] = []
+    present = [name for name in names if (folder / name).exists()]
+    moves = [(folder / name, older / name) for name in present]
+    moves += [(aside / name, folder / name) for name in names]
+    try:
+        for source, target in moves:
+            with _naming(folder / source.name):
+                source.rename(target)
+            done.append((source, target))
+    except BaseException:
+        for source, target in reversed(done):
+            target.rename(source)
+        raise
+
+
+@contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Says in an error of the file system which file it was, by the name it was to have."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+def write_run(record: Record, folder: Path | str) -> Summary:
     """Write ``summary.json``, ``record.csv`` and ``report.html`` of a run.
 
     Args:
-        record: the run.
+        record: the run, however it ended.
         folder: made if missing; an older run's files in it are replaced, all or none.
+
+    Returns:
+        Its key figures.
 
     Raises:
         OSError: a file cannot be written.
     """
     summary = summarise(record)
-    text = (
-        json.dumps(summary.to_dict() | what_was_run(record.experiment), indent=2, allow_nan=False)
-        + "\n"
-    )
+    units = {"columns": {column.name: column.unit for column in column_names(record)}}
+    content = summary.to_dict() | what_was_run(record.experiment) | units
+    text = json.dumps(content, indent=2, allow_nan=False) + "\n"
     files: dict[str, Write] = {
         "summary.json": lambda path: path.write_text(text, encoding="utf-8"),
         "record.csv": lambda path: write_csv(record, path),
         "report.html": lambda path: path.write_text(render(record, summary), encoding="utf-8"),
     }
     write_together(Path(folder), files)
+    return summary

@@ -1,85 +1,85 @@
-"""Puts the parts together into one HTML file that needs nothing but a browser."""
+"""The report of a walk."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from dataclasses import replace
 from typing import Any, Final
 
-import jinja2
-from markupsafe import Markup
-from plotly.offline import get_plotlyjs
+import numpy as np
 
-from apnc.loop.recording import Record
+from apnc.loop.provenance import what_was_run
+from apnc.loop.record import End, Record
 from apnc.report.animation import animation_data
-from apnc.report.encoding import packed, script_json
-from apnc.report.figures import Figure, all_figures
+from apnc.report.encoding import packed
+from apnc.report.figures import all_figures
+from apnc.report.html import page
+from apnc.report.panels import Run
+from apnc.report.samples import LATE_S
 from apnc.report.theme import leg_colours
-from apnc.report.wording import rows, verdicts
+from apnc.report.wording import facts, heading, rows, verdicts
 from apnc.summary import Summary
-from exudyn_models.robot.model import RobotDescription
 
-_SCRIPTS: Final = ("plots.js", "scene.js", "animation.js")
+BEYOND: Final = 1e4
+"""Size from which on a length, angle, speed, force or torque is that of a diverged motion [SI]."""
 
 
-def write_report(
-    record: Record, summary: Summary, path: Path | str, robot: RobotDescription | None = None
-) -> Path:
-    """Write the self-contained report of a run.
+def render(record: Record, summary: Summary) -> str:
+    """HTML text of the report of a run, however it ended.
 
-    Args:
-        record: the run, finished or interrupted.
-        summary: its key figures.
-        path: HTML file to write; its folder must exist.
-        robot: the robot that walked, for the animation; None draws straight legs.
-
-    Returns:
-        The path written.
-
-    Raises:
-        OSError: the file cannot be written.
-        ValueError: the robot lacks a leg of the record.
-
-    Pitfall: the file carries plotly.js (about 5 MB) and every sample; it is no archive format.
+    Pitfall: it carries plotly.js (about 5 MB) and what it shows of the record; it is no archive.
     """
-    target = Path(path)
-    target.write_text(render(record, summary, robot), encoding="utf-8")
-    return target
-
-
-def render(record: Record, summary: Summary, robot: RobotDescription | None = None) -> str:
-    """HTML text of the report, see ``write_report``."""
-    figures = all_figures(record, summary) if len(record) else []
-    environment = _environment()
-    template = environment.get_template("report.html.j2")
-    return template.render(
-        summary=summary,
-        verdicts=verdicts(summary),
+    shown = drawable(record)
+    run = Run(shown, summary) if len(shown) else None
+    return page(
+        "report.html.j2",
+        all_figures(run) if run else [],
+        scripts=("scene.js", "animation.js"),
+        data=_data(run) if run else {},
+        heading=heading(record.experiment),
+        facts=facts(record),
+        verdicts=verdicts(summary, record.experiment.duration),
         rows=rows(summary),
         colours=leg_colours(record.legs),
-        figures=figures,
-        css=Markup(_source(environment, "style.css")),
-        scripts=[Markup(_source(environment, name)) for name in _SCRIPTS],
-        plotly=Markup(get_plotlyjs()),
-        data=Markup(script_json(_data(record, figures, robot))),
+        known=what_was_run(record.experiment),
+        notes=_notes(record, run),
     )
 
 
-def _data(record: Record, figures: list[Figure], robot: RobotDescription | None) -> dict[str, Any]:
+def drawable(record: Record) -> Record:
+    """The run without the end of a diverged motion, whose numbers have no scale to draw them on."""
+    if record.end is not End.diverged:
+        return record
+    # work grows without bounds in a sound motion, too
+    channels = [v.reshape(len(v), -1) for name, v in record.plant.items() if name != "joint_work"]
+    largest = np.abs(np.concatenate(channels, axis=1)).max(axis=1)
+    unsound = np.flatnonzero(~(largest < BEYOND))  # NaN, too
+    count = int(unsound[0]) if len(unsound) else len(record)
+    plant = {name: values[:count] for name, values in record.plant.items()}
+    controller = {name: values[:count] for name, values in record.controller.items()}
+    return replace(record, time=record.time[:count], plant=plant, controller=controller)
+
+
+def _data(run: Run) -> dict[str, Any]:
+    time, opens = run.record.time, run.samples.opens_at
     return {
-        "time": packed(record.time, "<f4"),
-        "figures": [
-            {"key": f.key, "data": f.data, "layout": f.layout, "overTime": f.over_time}
-            for f in figures
-        ],
-        "animation": animation_data(record, robot),
+        "time": packed(time[run.samples.at], "<f4"),
+        "opensAt": None if opens is None else float(time[opens]),
+        "animation": animation_data(run),
     }
 
 
-def _environment() -> jinja2.Environment:
-    loader = jinja2.PackageLoader("apnc.report", "templates")
-    return jinja2.Environment(loader=loader, autoescape=True, undefined=jinja2.StrictUndefined)
-
-
-def _source(environment: jinja2.Environment, name: str) -> str:
-    assert environment.loader is not None
-    return environment.loader.get_source(environment, name)[0]
+def _notes(record: Record, run: Run | None) -> list[str]:
+    notes, drawn = [], len(run.record) if run else 0
+    if not len(record):
+        notes.append("The run ended before its first sample; there is nothing to plot.")
+    elif drawn < len(record):
+        notes.append(
+            f"From {record.time[drawn]:.2f} s on the motion has no scale (numbers beyond "
+            f"{BEYOND:g}); it is not drawn. record.csv has it."
+        )
+    if run and (block := run.samples.block):
+        notes.append(
+            f"A long run: but for the last {LATE_S:g} s, lines show the least and the largest of "
+            f"every {block} samples, the animation every {block // 2}th. record.csv has them all."
+        )
+    return notes

@@ -1,108 +1,99 @@
-"""A plot with one row per leg, all rows on the same scales."""
+"""Rows of lines over one time axis, and the lines in them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from apnc import metrics
+from apnc.loop.record import Record
 from apnc.report import theme
 from apnc.report.encoding import float32
+from apnc.report.figure import Figure, Trace
+from apnc.report.samples import Samples
+from apnc.summary import Summary
 
-# Name, samples (T, n), line width, dash, opacity.
-Series = tuple[str, NDArray[np.float64], float, str, float]
+Array = NDArray[np.float64]
 
+# Solid and dotted: told apart without colours.
+STYLES: Final = ({"width": 1.7, "dash": "solid"}, {"width": 1.3, "dash": "dot"})
 _ROW: Final = 78
-_GAP: Final = 0.045
 
 
-def leg_panels(
-    legs: Sequence[str],
-    series: Sequence[Series],
-    title: str,
-    y_range: tuple[float, float] | None = None,
-) -> tuple[list[dict[str, Any]], dict[str, Any]]:
-    """Traces and layout of stacked rows, one per leg, sharing the time axis and the y range.
+@dataclass(frozen=True)
+class Run:
+    """What every panel is made from; the record has at least one sample."""
 
-    Args:
-        legs: leg names, top row first.
-        series: signals drawn in every row.
-        title: title of the y axes with unit.
-        y_range: range of every row to begin with; None fits the data.
-    """
-    colours = theme.leg_colours(legs)
-    traces = [_trace(leg, i, one, colours[leg]) for i, leg in enumerate(legs) for one in series]
-    # Entries without data: the legend explains the line styles once, not once per leg.
-    traces += [_legend_entry(one) for one in series]
-    layout = theme.layout(80 + _ROW * len(legs), annotations=_names(legs, colours, title))
-    layout["xaxis"] = theme.axis("time [s]", anchor=f"y{len(legs)}" if len(legs) > 1 else "y")
-    for i in range(len(legs)):
-        layout[f"yaxis{i + 1 if i else ''}"] = _row_axis(i, len(legs), y_range)
-    return traces, layout
+    record: Record
+    summary: Summary
 
+    @cached_property
+    def samples(self) -> Samples:
+        """Which samples are shown."""
+        return Samples(self.record.time)
 
-def _span(i: int, n: int) -> tuple[float, float]:
-    height = (1 - _GAP * (n - 1)) / n
-    top = 1 - i * (height + _GAP)
-    return max(0.0, top - height), top
+    @cached_property
+    def shown(self) -> dict[str, Array]:
+        """The channels of the plant at the samples that are shown."""
+        return {name: values[self.samples.at] for name, values in self.record.plant.items()}
 
+    @cached_property
+    def standing(self) -> NDArray[np.bool_]:
+        """Which feet stand, shape (T, n)."""
+        return metrics.stance(self.record.plant["foot_force"][..., 2])
 
-def _row_axis(i: int, n: int, y_range: tuple[float, float] | None) -> dict[str, Any]:
-    shared: dict[str, Any] = {} if i == 0 else {"matches": "y"}
-    if y_range is not None:
-        shared["range"] = list(y_range)
-    domain = list(_span(i, n))
-    return theme.axis("", domain=domain, nticks=3, showline=True, mirror=True, **shared)
+    @property
+    def colours(self) -> dict[str, str]:
+        """Colour of every leg."""
+        return theme.leg_colours(self.record.legs)
 
+    def line(self, values: Array, name: str, colour: str, **style: Any) -> Trace:
+        """Line over the time of the page of a signal of shape (T,)."""
+        return line(self.samples.of(values), name, colour, **style)
 
-def _trace(leg: str, i: int, series: Series, colour: str) -> dict[str, Any]:
-    name, samples, width, dash, opacity = series
-    return {
-        "type": "scatter",
-        "mode": "lines",
-        "name": f"{leg} {name}",
-        "y": float32(samples[:, i]),
-        "yaxis": f"y{i + 1}" if i else "y",
-        "line": {"color": colour, "width": width, "dash": dash},
-        "opacity": opacity,
-        "showlegend": False,
-    }
+    def leg_rows(
+        self, key: str, title: str, unit: str, series: dict[str, Array], note: str, **axes: Any
+    ) -> Figure:
+        """A row per leg, all on the same scale, of at most two signals of shape (T, n) by name."""
+        styled = list(zip(series.items(), STYLES, strict=False))
+        rows = [
+            (f"<b>{leg}</b> [{unit}]", [
+                self.line(values[:, i], f"{leg} {name}", colour, showlegend=False, **style)
+                for (name, values), style in styled
+            ])
+            for i, (leg, colour) in enumerate(self.colours.items())
+        ]  # fmt: skip
+        figure = stacked(key, title, note, rows, matches="y", **axes)
+        # The legend explains the styles once, not once per leg.
+        empty = {"x": [None], "y": [None], "hoverinfo": "skip"}
+        figure.data.extend(line(np.empty(0), n, theme.INK, **s) | empty for (n, _), s in styled)
+        return figure
 
 
-def _legend_entry(series: Series) -> dict[str, Any]:
-    name, _, width, dash, _ = series
-    return {
-        "type": "scatter",
-        "mode": "lines",
-        "name": name,
-        "x": [None],
-        "y": [None],
-        "line": {"color": theme.INK, "width": width, "dash": dash},
-        "hoverinfo": "skip",
-    }
+def line(values: Array, name: str, colour: str, **style: Any) -> Trace:
+    """A line of samples as they are; ``style`` may set width and dash, the rest is the trace's."""
+    look = {"color": colour, "width": style.pop("width", 1.6), "dash": style.pop("dash", "solid")}
+    trace = {"type": "scatter", "mode": "lines", "y": float32(values), "name": name, "line": look}
+    return trace | style
 
 
-def _names(legs: Sequence[str], colours: dict[str, str], title: str) -> list[dict[str, Any]]:
-    names = [
-        _text(f"<b>{leg}</b>", 0.006, _span(i, len(legs))[1] - 0.012, colours[leg])
-        for i, leg in enumerate(legs)
-    ]
-    side = {"textangle": -90, "xanchor": "center", "xshift": -56, "yanchor": "middle"}
-    return [*names, _text(title, 0.0, 0.5, theme.INK) | side]
-
-
-def _text(text: str, x: float, y: float, colour: str) -> dict[str, Any]:
-    return {
-        "text": text,
-        "xref": "paper",
-        "yref": "paper",
-        "x": x,
-        "y": y,
-        "xanchor": "left",
-        "yanchor": "top",
-        "showarrow": False,
-        "bgcolor": "rgba(255,255,255,0.75)",
-        "font": {"color": colour, "size": 12},
-    }
+def stacked(
+    key: str, title: str, note: str, rows: Sequence[tuple[str, Iterable[Trace]]], **axes: Any
+) -> Figure:
+    """Rows under one another over one time axis: title with unit and lines of each."""
+    names = [f"y{i + 1}" if i else "y" for i in range(len(rows))]
+    grid = {"rows": len(rows), "columns": 1, "subplots": [[f"x{y}"] for y in names], "ygap": 0.12}
+    time = theme.axis("time [s]", anchor=names[-1])
+    layout = theme.layout(80 + _ROW * len(rows), grid=grid, xaxis=time)
+    data: list[Trace] = []
+    for y, (label, lines) in zip(names, rows, strict=True):
+        # plotly takes no axis that matches itself
+        own = {name: value for name, value in axes.items() if (name, value) != ("matches", y)}
+        layout[f"yaxis{y[1:]}"] = theme.axis(label, nticks=3, showline=True, mirror=True, **own)
+        data += [trace | {"yaxis": y} for trace in lines]
+    return Figure(key, title, note, data, layout)

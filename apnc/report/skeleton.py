@@ -1,101 +1,66 @@
-"""Where a robot's hips and knees were in a run, for the drawing."""
+"""Where trunk, legs and feet of a robot were in the world, for the drawing."""
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from collections.abc import Mapping
 
-from apnc.loop.recording import Record
-from exudyn_models.robot.model import RobotDescription
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from exudyn_models.ground import Surface
+from exudyn_models.robot import RobotDescription
 
 Array = NDArray[np.float64]
+Plant = Mapping[str, Array]
 
 
-def rotation(rpy: ArrayLike) -> Array:
-    """Rotation matrices from the trunk to the world frame, Rz(yaw) Ry(pitch) Rx(roll).
+def trunk_corners(robot: RobotDescription, plant: Plant) -> Array:
+    """Corners of the trunk [m], shape (T, 8, 3), in the order of ``Trunk.corners``."""
+    return _in_world(plant, robot.trunk.corners()[None])
 
-    Args:
-        rpy: roll, pitch, yaw [rad], shape (T, 3).
 
-    Returns:
-        Shape (T, 3, 3).
+def leg_chains(robot: RobotDescription, plant: Plant) -> Array:
+    """Points of every leg [m], shape (T, n, 4, 3): hip1, hip2, knee, foot.
+
+    Positive hip and knee angles swing the leg forward. The foot is the recorded one, so a wrong
+    robot shows as a leg of the wrong length, not as a floating foot.
     """
-    angles = np.asarray(rpy, dtype=np.float64)
-    (cr, cp, cy), (sr, sp, sy) = np.cos(angles).T, np.sin(angles).T
-    rows = [
-        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-        [-sp, cp * sr, cp * cr],
-    ]
-    return np.moveaxis(np.array(rows), -1, 0)
-
-
-def leg_chains(record: Record, robot: RobotDescription | None) -> Array:
-    """Points of every leg in the world frame [m], shape (T, n, 4, 3): hip1, hip2, knee, foot.
-
-    Args:
-        record: the run; trunk pose, joint angles and foot positions are used.
-        robot: geometry of the legs; None draws straight legs from points above the feet.
-
-    Raises:
-        ValueError: the robot does not have every leg of the record.
-
-    Forward kinematics with positive hip and knee angles swinging the leg forward. The foot is the
-    recorded one, so a wrong robot shows as a leg of the wrong length, not as a floating foot.
-    """
-    plant = record.plant
-    turn = rotation(plant["rpy"])
-    origin = plant["position"][:, None, :]
-    feet = plant["foot_position"]
-    if robot is None:
-        hips = np.broadcast_to(_hips_above_feet(origin, turn, feet), feet.shape)
-        in_trunk = np.stack([hips, hips, hips], axis=2)
-    else:
-        in_trunk = _hips_and_knees(record, robot)
-    in_world = origin[:, :, None, :] + np.einsum("tij,tnkj->tnki", turn, in_trunk)
-    return np.concatenate([in_world, feet[:, :, None, :]], axis=2)
-
-
-def trunk_box(record: Record, robot: RobotDescription | None) -> tuple[list[float], list[float]]:
-    """Edges and centre of the trunk in its frame [m]; of a box over the feet without a robot."""
-    if robot is not None:
-        return list(robot.trunk.body.size), list(robot.trunk.center)
-    feet = record.plant["foot_position"]
-    if len(feet) == 0:
-        return [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
-    turn, origin = rotation(record.plant["rpy"]), record.plant["position"][:, None, :]
-    hips = _hips_above_feet(origin, turn, feet)
-    length, width = np.ptp(hips, axis=0)[:2]
-    return [float(length), float(width), 0.25 * float(width)], [*hips.mean(axis=0).tolist()]
-
-
-def _hips_and_knees(record: Record, robot: RobotDescription) -> Array:
-    """Hip1, hip2 and knee in the trunk frame, shape (T, n, 3, 3)."""
-    known = {leg.name: leg for leg in robot.legs}
-    missing = [name for name in record.legs if name not in known]
-    if missing:
-        raise ValueError(f"robot '{robot.name}' has no leg {', '.join(missing)}")
-    legs = [known[name] for name in record.legs]
-    abduction, hip, _ = np.moveaxis(record.plant["joint_angle"], -1, 0)
+    abduction, hip, _ = np.moveaxis(plant["joint_angle"], -1, 0)
+    legs = robot.legs
     lean = hip - np.array([leg.femur_angle for leg in legs])
-    hip1 = np.broadcast_to(np.array([leg.mount for leg in legs]), (*lean.shape, 3))
-    to_hip2 = np.broadcast_to(np.array([leg.outward(leg.hip_offset) for leg in legs]), hip1.shape)
     femur = np.stack([np.sin(lean), np.zeros_like(lean), -np.cos(lean)], axis=-1)
-    to_knee = femur * np.array([[leg.femur_length] for leg in legs])
-    hip2 = hip1 + _about_x(abduction, to_hip2)
-    return np.stack([hip1, hip2, hip2 + _about_x(abduction, to_knee)], axis=2)
+    femur *= np.array([[leg.femur_length] for leg in legs])
+    hip1 = np.broadcast_to(np.array([leg.mount for leg in legs]), femur.shape)
+    to_hip2 = np.broadcast_to(np.array([leg.outward(leg.hip_offset) for leg in legs]), femur.shape)
+    links = np.stack([np.zeros_like(femur), to_hip2, to_hip2 + femur])  # before abduction
+    swung = Rotation.from_rotvec(abduction.ravel()[:, None] * [1.0, 0.0, 0.0])
+    turned = [swung.apply(link.reshape(-1, 3)).reshape(hip1.shape) + hip1 for link in links]
+    joints = _in_world(plant, np.concatenate(turned, axis=1))
+    joints = joints.reshape(len(joints), 3, len(legs), 3).swapaxes(1, 2)
+    return np.concatenate([joints, plant["foot_position"][:, :, None]], axis=2)
 
 
-def _about_x(angle: Array, vector: Array) -> Array:
-    x, y, z = np.moveaxis(vector, -1, 0)
-    c, s = np.cos(angle), np.sin(angle)
-    return np.stack([x, c * y - s * z, s * y + c * z], axis=-1)
+def in_ground(ground: Surface, points: Array) -> Array:
+    """Points of the world in the frame of the ground [m], shape (..., 3)."""
+    return points @ ground.rotation()
 
 
-def _hips_above_feet(origin: Array, turn: Array, feet: Array) -> Array:
-    """Mean foot positions in the trunk frame, lifted to the trunk's height, shape (n, 3)."""
-    if len(feet) == 0:
-        return np.zeros(feet.shape[1:])
-    mean: Array = np.einsum("tji,tnj->tni", turn, feet - origin).mean(axis=0)
-    mean[:, 2] = 0.0
-    return mean
+def clearance(ground: Surface, robot: RobotDescription, feet: Array) -> Array:
+    """Lowest point of every foot over the ground below its centre [m], shape (T, n).
+
+    Args:
+        ground: what is below.
+        robot: says how large the feet are.
+        feet: centres of the feet in the world [m], shape (T, n, 3).
+    """
+    x, y, z = np.moveaxis(in_ground(ground, feet), -1, 0)
+    gap: Array = z - robot.contact.foot_radius - ground.elevation(x, y)
+    return gap
+
+
+def _in_world(plant: Plant, points: Array) -> Array:
+    """Points of the trunk, shape (T or 1, k, 3), by Rz(yaw) Ry(pitch) Rx(roll) and its place."""
+    turn = Rotation.from_euler("xyz", plant["rpy"]).as_matrix()
+    placed: Array = plant["position"][:, None] + points @ turn.swapaxes(1, 2)
+    return placed

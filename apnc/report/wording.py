@@ -1,14 +1,22 @@
-"""The findings of a run in plain words and formatted figures."""
+"""What was run and what came of it, in plain words and formatted figures."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any, Final
 
-from apnc.metrics.motion import MIN_SPEED
+from apnc import metrics
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import End, Record
+from apnc.loop.steps import steps_text
 from apnc.summary import Summary
+from exudyn_models.conditions import Conditions
 
-DASH = "–"
+DASH: Final = "–"
+_SPACE: Final = "\N{NO-BREAK SPACE}"
+_UNITS: Final = {"duration": " s", "rate": " Hz", "step": " s"}
+_SPEAK_FOR_THEMSELVES: Final = ("robot", "method", "ground", "conditions")
 
 
 @dataclass(frozen=True)
@@ -21,97 +29,151 @@ class Verdict:
     mood: str
 
 
-def verdicts(summary: Summary) -> list[Verdict]:
-    """The three questions a reader has first: did it walk, did the gait form, how well."""
-    return [_walked(summary), _formed(summary), _quality(summary)]
+def heading(experiment: Experiment) -> str:
+    """What is not default, in a line."""
+    changed = {**experiment.changed()}
+    settings = changed.pop("settings", {})
+    words = [
+        _plain(value)
+        if name in _SPEAK_FOR_THEMSELVES
+        else f"{'MI' if name == 'mi' else name} {_plain(value)}{_UNITS.get(name, '')}"
+        for name, value in changed.items()
+    ]
+    return ", ".join([*words, *_settings(settings)]) or "all as by default"
 
 
-def gait_name(summary: Summary) -> str:
-    """Name of the target gait."""
-    return {3: "trot", 5: "tripod"}.get(len(summary.phi_final), "gait")
+def facts(record: Record) -> list[tuple[str, str]]:
+    """What was run: name and value."""
+    e = record.experiment
+    stored = e.settings.get("phi_stored") if e.settings.get("stored") else None
+    return [
+        ("Robot", f"{record.robot.name}, {record.mass:.2f} kg, legs {', '.join(record.legs)}"),
+        ("Controller", f"{e.method}, preset {e.preset}, {e.rate:g} Hz"),
+        ("Changed parameters", ", ".join(_settings(e.settings)) or "none"),
+        ("Memory", f"starts with φ {_plain(stored)} rad" if stored else "empty at the start"),
+        *((name.capitalize(), _plain(getattr(e, name))) for name in ("turn", "conditions")),
+        *(("MI", _plain(e.mi)), ("Ground", _plain(e.ground)), ("Seed", str(e.seed))),
+        ("Contact", f"{e.contact}, step {1e6 * e.step:.4g} µs"),
+    ]
+
+
+def verdicts(summary: Summary, planned: float) -> list[Verdict]:
+    """The three questions a reader has first, about a run that was to last ``planned`` [s]."""
+    return [_walked(summary, planned), _formed(summary), _fast(summary)]
 
 
 def number(value: float | None, digits: int = 2, unit: str = "") -> str:
     """Fixed-point text with unit, a dash if undefined."""
     if value is None or not math.isfinite(value):
         return DASH
-    return f"{value:.{digits}f}{unit}"
+    return f"{value:.{digits}f}{_SPACE * bool(unit)}{unit}"
 
 
-def rows(summary: Summary) -> list[tuple[str, str, str]]:
+def rows(s: Summary) -> list[tuple[str, str, str]]:
     """Rows of the summary table: name, value with unit, what it means."""
-    s = summary
-    legs = ", ".join(
-        f"{leg}\N{NO-BREAK SPACE}{number(duty)}" for leg, duty in s.duty_factor.items()
-    )
-    pairs = zip(range(2, 9), s.phi_final, strict=False)
-    phases = ", ".join(f"φ1{k}\N{NO-BREAK SPACE}{phase_text(phase)}" for k, phase in pairs)
-    name = gait_name(s).capitalize()
+    phases = [f"φ1{k}{_SPACE}{phase_text(p)}" for k, p in enumerate(s.phi_final, start=2)]
+    target = metrics.gait_name(len(s.phi_final) + 1).capitalize()
+    strict = f"within {metrics.STRICT_TOLERANCE} rad to the end"
+    share = None if s.fmu_share_of_wall_time is None else 100.0 * s.fmu_share_of_wall_time
+    steadier = "1/std roll + 1/std pitch; larger is steadier: 80 is 1.4° of sway, 200 is 0.6°"
+    evener = "1 / spread of the share of stance; larger is more even: 10 is a spread of 0.1"
     return [
-        ("Controller", f"{s.method.upper()}, MI {s.mi:g}, seed {s.seed}", ""),
-        ("Simulated", number(s.duration_s, 2, " s") + ("" if s.complete else " (interrupted)"), ""),
-        ("Forward speed", number(s.speed_m_per_s, 3, " m/s"), "along the initial heading"),
-        ("Speed along path", number(s.path_speed_m_per_s, 3, " m/s"), "smoothed path"),
-        (f"{name}, strict", number(s.convergence_time_s, 2, " s"), "within 0.6 rad to the end"),
-        (f"{name}, authors", number(s.convergence_time_authors_s, 2, " s"), "below 2.8 rad, first"),
-        ("Final phases", phases, ""),
-        ("Stride frequency", number(s.stride_frequency_hz, 2, " Hz"), ""),
-        ("Duty factor", legs, "share of stance"),
-        ("Balance", number(s.balance, 1, " 1/rad"), "1/std roll + 1/std pitch"),
-        ("Coordination", number(s.coordination, 1), "1 / spread of duty factor"),
-        ("Cost of transport", number(s.cost_of_transport, 2), "energy / (m g distance)"),
-        ("Real-time factor", number(s.real_time_factor, 1, " ×"), "simulated / wall time"),
-        ("FMU share", _percent(s.fmu_share_of_wall_time), "of wall time"),
+        ("Speed along the path", number(s.path_speed_m_per_s, 3, "m/s"), "smoothed over 1.5 s"),
+        ("Turned", _turned(s), "from the first heading to the last"),
+        ("Net displacement", number(s.distance_m, 2, "m"), "along the first heading"),
+        ("Simulated", number(s.duration_s, 2, "s"), ": ".join(filter(None, (s.end, s.message)))),
+        (f"{target}, strict", number(s.convergence_time_s, 2, "s"), strict),
+        (
+            f"{target}, authors",
+            number(s.convergence_time_authors_s, 2, "s"),
+            "first within 2.8 rad",
+        ),
+        ("Final gait", s.gait or DASH, ", ".join(phases)),
+        ("Gait stored", number(s.stored_at_s, 2, "s"), "neural couplings first on"),
+        ("Stride frequency", number(s.stride_frequency_hz, 2, "Hz"), "cycles of the oscillators"),
+        ("Duty factor", _by_leg(s.duty_factor, 2), "share of stance"),
+        ("Touch-downs per stride", number(s.touch_downs_per_stride), "1 is a clean step"),
+        ("Foot lift", _by_leg(s.foot_lift_mm, 1), "mm, mid-swing above stance"),
+        ("Slip per stride", _by_leg(s.slip_per_stride_mm, 1), "mm, in stance"),
+        ("Balance", number(s.balance, 1, "1/rad"), steadier),
+        ("Coordination", number(s.coordination, 1), evener),
+        ("Cost of transport", number(s.cost_of_transport), "energy / (m g path); less is better"),
+        ("Real-time factor", number(s.real_time_factor, 1, "×"), "simulated / wall time"),
+        ("Controller's share", number(share, 1, "%"), "of wall time"),
     ]
 
 
 def phase_text(phase: float | None) -> str:
     """Phase as a multiple of pi, such as 0.98 π."""
-    return DASH if phase is None else f"{phase / math.pi:.2f}\N{NO-BREAK SPACE}π"
+    return DASH if phase is None else f"{phase / math.pi:.2f}{_SPACE}π"
 
 
-def _walked(s: Summary) -> Verdict:
-    question = "Did it walk?"
-    span = number(s.duration_s, 1, " s") + ("" if s.complete else ", interrupted")
-    if s.fell:
-        return Verdict(
-            question, "It fell", f"trunk on the ground or beyond 60° within {span}", "bad"
-        )
+def _settings(settings: Any) -> list[str]:
+    return [f"{name} {_plain(v)}" for name, v in settings.items() if name != "phi_stored"]
+
+
+def _plain(value: Any) -> str:
+    """A value of an experiment in words: steps, conditions and grounds, too."""
+    if isinstance(value, Conditions):
+        default = Conditions()
+        changed = {f.name: getattr(value, f.name) for f in fields(value)}
+        words = [f"{k} {_plain(v)}" for k, v in changed.items() if v != getattr(default, k)]
+        return ", ".join(words) or "none"
+    if isinstance(value, tuple) and value and isinstance(value[0], tuple):
+        return steps_text(tuple((start, _plain(entry)) for start, entry in value))
+    if isinstance(value, tuple | list):
+        return " ".join(_plain(entry) for entry in value)
+    if hasattr(value, "text"):
+        return str(value.text())
+    return f"{value:.6g}" if isinstance(value, float) else str(getattr(value, "name", value))
+
+
+def _walked(s: Summary, planned: float) -> Verdict:
+    question, when = "Did it walk?", number(s.duration_s, 2, "s")
     speed = s.path_speed_m_per_s
-    if speed is None or speed < MIN_SPEED:
-        return Verdict(question, "No", f"upright, but it got nowhere in {span}", "bad")
-    if (s.speed_m_per_s or 0.0) < MIN_SPEED:
-        return Verdict(question, "Not forward", f"{_distance(s)} in {span}, upright", "fair")
-    return Verdict(question, "Yes", f"{_distance(s)} in {span}, upright throughout", "good")
+    way = "" if speed is None else f"{speed * s.duration_s:.2f} m of path"
+    after = f", after {way}" if way else ""
+    if s.end == End.fell:
+        return Verdict(question, "It fell", f"at {when}{after}", "bad")
+    if s.end == End.diverged:
+        return Verdict(question, "It diverged", f"at {when}: {s.message}", "bad")
+    if s.end == End.interrupted:
+        return Verdict(question, "Interrupted", f"at {when} of {planned:g} s{after}", "fair")
+    if speed is None or speed < metrics.MIN_SPEED:
+        return Verdict(question, "No", f"upright, but it got nowhere in {when}", "bad")
+    return Verdict(question, "Yes", f"{way} in {when}, upright throughout", "good")
 
 
 def _formed(s: Summary) -> Verdict:
-    gait = gait_name(s)
-    question = f"Did the {gait} form?"
-    final = ", ".join(phase_text(p) for p in s.phi_final)
+    question = f"Did the {metrics.gait_name(len(s.phi_final) + 1)} form?"
+    final = f"ended in {s.gait or 'no known gait'}: {', '.join(map(phase_text, s.phi_final))}"
+    if s.end in (End.fell, End.diverged):
+        return Verdict(question, DASH, "the run did not last", "plain")
     if s.converged is None:
-        return Verdict(question, "Unknown", "no target gait for this number of legs", "fair")
+        return Verdict(question, DASH, "too short, or no gait is known for these legs", "plain")
     if s.converged:
-        when = number(s.convergence_time_s, 1, " s")
-        return Verdict(question, f"After {when}", "from touch-down, and held to the end", "good")
+        until = "the end" if s.complete else "the interruption"
+        when = number(s.convergence_time_s, 1, "s")
+        return Verdict(question, f"After {when}", f"from touch-down, and held to {until}", "good")
     if s.convergence_time_authors_s is not None:
-        when = number(s.convergence_time_authors_s, 1, " s")
-        return Verdict(question, "Not for good", f"near it at {when}; ended at {final}", "fair")
-    return Verdict(question, "No", f"ended at {final}", "bad")
+        near = f"near it at {number(s.convergence_time_authors_s, 1, 's')}; {final}"
+        return Verdict(question, "Not for good", near, "fair")
+    return Verdict(question, "No", final, "bad")
 
 
-def _quality(s: Summary) -> Verdict:
-    detail = (
-        f"stride {number(s.stride_frequency_hz, 2, ' Hz')}, "
-        f"cost of transport {number(s.cost_of_transport, 2)}"
-    )
-    return Verdict("How fast?", number(s.speed_m_per_s, 3, " m/s"), detail, "plain")
+def _fast(s: Summary) -> Verdict:
+    stride = f"stride {number(s.stride_frequency_hz, 2, 'Hz')}"
+    detail = f"{stride}, cost of transport {number(s.cost_of_transport)}"
+    speed = number(s.path_speed_m_per_s, 3, "m/s")
+    return Verdict("How fast?", speed, f"along the path, turned {_turned(s)}; {detail}", "plain")
 
 
-def _distance(s: Summary) -> str:
-    distance = s.distance_m or 0.0
-    return f"{abs(distance):.2f} m {'forward' if distance >= 0 else 'backward'}"
+def _turned(s: Summary) -> str:
+    if s.turned_deg is None:
+        return DASH
+    side = "left" if s.turned_deg > 0 else "right"
+    return f"{abs(s.turned_deg):.0f}° to the {side}" if abs(s.turned_deg) >= 0.5 else "0°"
 
 
-def _percent(share: float | None) -> str:
-    return DASH if share is None else f"{100 * share:.1f} %"
+def _by_leg(values: dict[str, float | None], digits: int) -> str:
+    return ", ".join(f"{leg}{_SPACE}{number(value, digits)}" for leg, value in values.items())

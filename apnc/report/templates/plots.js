@@ -1,28 +1,29 @@
 "use strict";
-// Draws the plots, keeps their time axes together and shows the current time in each.
-const apnc = { data: JSON.parse(document.getElementById("data").textContent) };
+// Draws the figures; keeps those over time together and shows the current time in each.
+const apnc = { data: JSON.parse(document.getElementById("data").textContent), seekListeners: [] };
 
-apnc.unpack = (text, Type) => {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  return new Type(bytes.buffer);
-};
-apnc.time = apnc.unpack(apnc.data.time, Float32Array);
-apnc.seekListeners = [];
-apnc.seek = (t) => apnc.seekListeners.forEach((f) => f(t));
+apnc.unpack = (text, Type) => new Type(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+apnc.time = apnc.unpack(apnc.data.time || "", Float32Array);
+apnc.begin = apnc.time[0] || 0;
+apnc.end = apnc.time[apnc.time.length - 1] || 1;
+// What the page opens on: all of a short run, the end of a long one.
+apnc.window = [apnc.data.opensAt ?? apnc.begin, apnc.end];
 
 apnc.plots = apnc.data.figures.map(({ key, data, layout, overTime }) => {
   const element = document.getElementById("plot-" + key);
   if (overTime) {
     for (const trace of data) if (!trace.x) trace.x = apnc.time;
-    layout.xaxis.range = apnc.fullRange();
+    layout.xaxis.range = [...apnc.window];
   }
   const config = { responsive: true, displaylogo: false, displayModeBar: "hover", modeBarButtonsToRemove: ["select2d", "lasso2d"] };
   Plotly.newPlot(element, data, layout, config);
   return { element, overTime };
-}, (apnc.fullRange = () => [apnc.time[0], apnc.time[apnc.time.length - 1] || 1]));
+});
 
 {
   const linked = apnc.plots.filter((p) => p.overTime);
+  const buttons = [...document.querySelectorAll("#windows button")];
+  const mark = (name) => buttons.forEach((b) => b.classList.toggle("on", b.dataset.window === name));
   let busy = false;
   const setRange = (range, source) => {
     if (busy) return;
@@ -36,36 +37,29 @@ apnc.plots = apnc.data.figures.map(({ key, data, layout, overTime }) => {
     plot.cursor.className = "cursor";
     plot.element.parentElement.append(plot.cursor);
     plot.element.on("plotly_relayout", (event) => {
-      if ("xaxis.autorange" in event) {
-        Plotly.relayout(plot.element, { "xaxis.range": apnc.fullRange() });
-        setRange(apnc.fullRange(), plot.element);
-      } else if ("xaxis.range[0]" in event) {
-        setRange([event["xaxis.range[0]"], event["xaxis.range[1]"]], plot.element);
-        mark(null);
-      }
+      if ("xaxis.autorange" in event) { setRange([apnc.begin, apnc.end], null); mark("all"); }
+      else if ("xaxis.range[0]" in event) { setRange([event["xaxis.range[0]"], event["xaxis.range[1]"]], plot.element); mark(null); }
     });
     plot.element.addEventListener("click", (event) => {
       const { xaxis, _size: size } = plot.element._fullLayout;
       const box = plot.element.getBoundingClientRect();
       const x = event.clientX - box.left - size.l;
-      if (x >= 0 && x <= size.w && event.clientY - box.top > size.t) apnc.seek(xaxis.p2d(x));
+      if (x >= 0 && x <= size.w && event.clientY - box.top > size.t) apnc.seekListeners.forEach((f) => f(xaxis.p2d(x)));
     });
   }
 
-  const buttons = [...document.querySelectorAll("#windows button")];
-  const mark = (button) => buttons.forEach((b) => b.classList.toggle("on", b === button));
-  const [begin, end] = apnc.fullRange();
   const ranges = {
-    all: () => [begin, end],
-    first: () => [begin, Math.min(end, begin + 10)],
-    last: () => [Math.max(begin, end - 5), end],
+    all: () => [apnc.begin, apnc.end],
+    first: () => [apnc.begin, Math.min(apnc.end, apnc.begin + 10)],
+    last: () => [Math.max(apnc.begin, apnc.end - 10), apnc.end],
     around: () => [apnc.now - 2.5, apnc.now + 2.5],
   };
   for (const button of buttons) {
-    button.addEventListener("click", () => { setRange(ranges[button.dataset.window](), null); mark(button); });
+    button.addEventListener("click", () => { setRange(ranges[button.dataset.window](), null); mark(button.dataset.window); });
   }
+  mark(apnc.data.opensAt ? "last" : "all");
 
-  apnc.now = begin;
+  apnc.now = apnc.window[0];
   // A styled element instead of a plotly shape: moving a shape redraws the whole plot.
   apnc.moveCursor = (t = apnc.now) => {
     apnc.now = t;

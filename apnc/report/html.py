@@ -1,0 +1,58 @@
+"""One HTML file that needs nothing but a browser: the frame of every report."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import jinja2
+from plotly.offline import get_plotlyjs
+
+from apnc.report.encoding import script_json
+from apnc.report.figure import Figure
+
+
+def page(
+    template: str,
+    figures: Sequence[Figure],
+    *,
+    package: str = "apnc.report",
+    scripts: Sequence[str] = (),
+    data: Mapping[str, Any] | None = None,
+    **context: Any,
+) -> str:
+    """Text of a page.
+
+    Args:
+        template: extends ``base.html.j2`` (blocks title, style, header, main) and places each
+            figure by ``{% include "figure.html.j2" %}`` with the name ``figure``.
+        figures: all of them, drawn by ``plots.js``.
+        package: where the template lies, in its folder ``templates``.
+        scripts: further scripts in the templates, run after the figures are drawn.
+        data: what these find as ``apnc.data``; ``time`` is the time vector of the figures.
+        context: names for the template.
+
+    Pitfall: the page carries plotly.js, about 5 MB.
+    """
+    places = dict.fromkeys((package, "apnc.report"))
+    environment = jinja2.Environment(
+        loader=jinja2.ChoiceLoader([jinja2.PackageLoader(p, "templates") for p in places]),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+
+    def source(name: str) -> str:
+        assert environment.loader is not None
+        return environment.loader.get_source(environment, name)[0]
+
+    content = {**(data or {}), "figures": [figure.to_dict() for figure in figures]}
+    return environment.get_template(template).render(
+        figures=figures,
+        css=source("style.css"),
+        scripts=[source(name) for name in ("plots.js", *scripts)] if figures else [],
+        plotly=get_plotlyjs() if figures else "",
+        data=script_json(content),
+        **context,
+    )

@@ -1,0 +1,118 @@
+"""A folder holds one run's files or the older run's, never a mixture."""
+
+from __future__ import annotations
+
+import csv
+import errno
+import json
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from records import synthetic_record
+
+from apnc.loop.record import End, column_names
+from apnc.report import folder as folder_module
+from apnc.report.folder import write_run, write_together
+
+FILES = {"summary.json", "record.csv", "report.html"}
+
+
+def full(path: Path) -> None:
+    """Writes half a file, as a full disk does."""
+    path.write_text("half", encoding="utf-8")
+    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def texts(folder: Path) -> dict[str, str]:
+    return {path.name: path.read_text() for path in folder.iterdir()}
+
+
+def test_a_run_is_three_files_that_say_what_was_run(tmp_path: Path) -> None:
+    record = synthetic_record(2.0)
+    summary = write_run(record, tmp_path / "deep" / "walk")
+    folder = tmp_path / "deep" / "walk"
+    assert {path.name for path in folder.iterdir()} == FILES
+    content = json.loads((folder / "summary.json").read_text())
+    assert content["path_speed_m_per_s"] == summary.path_speed_m_per_s
+    assert content["command"] == record.experiment.command()
+    assert content["experiment"]["robot"] == "lilibot"
+    assert content["parameters"]["Ts"] == 1 / 60
+    assert "numpy" in content["versions"]
+    with (folder / "record.csv").open() as file:
+        header = next(csv.reader(file))
+    assert header == list(content["columns"]) == [c.name for c in column_names(record)]
+    assert content["columns"]["RF.joint_torque.hip"] == "N.m"
+
+
+def test_a_run_of_no_tick_has_all_files(tmp_path: Path) -> None:
+    record = replace(synthetic_record(0.0), end=End.interrupted)
+    write_run(record, tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} == FILES
+    assert "nothing to plot" in (tmp_path / "report.html").read_text()
+    assert len((tmp_path / "record.csv").read_text().splitlines()) == 1
+
+
+def test_a_full_disk_names_the_file_and_leaves_the_older_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_run(synthetic_record(1.0), tmp_path)
+    older = texts(tmp_path)
+    monkeypatch.setattr(folder_module, "write_csv", lambda record, path: full(path))
+    with pytest.raises(OSError, match="No space left") as caught:
+        write_run(synthetic_record(2.0), tmp_path)
+    assert caught.value.filename == str(tmp_path / "record.csv")
+    assert texts(tmp_path) == older
+
+
+@pytest.mark.parametrize("failing", range(6))
+def test_a_move_that_fails_brings_the_older_run_back(
+    failing: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = ("a", "b", "c")
+    write_together(tmp_path, {n: lambda path, n=n: path.write_text(f"older {n}") for n in names})
+    older, moves, rename = texts(tmp_path), [], Path.rename
+
+    def stubborn(source: Path, target: Path) -> Path:
+        moves.append(source)
+        if len(moves) == failing + 1:
+            raise OSError(errno.EACCES, "Permission denied")
+        return rename(source, target)
+
+    monkeypatch.setattr(Path, "rename", stubborn)
+    with pytest.raises(OSError) as caught:
+        write_together(tmp_path, {n: lambda path: path.write_text("newer") for n in names})
+    assert caught.value.filename == str(tmp_path / names[failing % 3])
+    assert texts(tmp_path) == older
+
+
+def test_the_two_runs_never_stand_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ("a", "b", "c")
+    write_together(tmp_path, {n: lambda path: path.write_text("older") for n in names})
+    seen, rename = [], Path.rename
+
+    def watching(source: Path, target: Path) -> Path:
+        result = rename(source, target)
+        seen.append({p.read_text() for p in tmp_path.iterdir() if p.is_file()})
+        return result
+
+    monkeypatch.setattr(Path, "rename", watching)
+    write_together(tmp_path, {n: lambda path: path.write_text("newer") for n in names})
+    assert all(len(kinds) <= 1 for kinds in seen)
+    assert texts(tmp_path) == dict.fromkeys(names, "newer")
+
+
+def test_what_a_killed_writer_left_is_removed_and_other_files_stay(tmp_path: Path) -> None:
+    (tmp_path / ".writing-killed").mkdir()
+    (tmp_path / ".writing-killed" / "record.csv").write_text("half")
+    (tmp_path / "notes.txt").write_text("mine")
+    write_together(tmp_path, {"a": lambda path: path.write_text("new")})
+    assert texts(tmp_path) == {"a": "new", "notes.txt": "mine"}
+
+
+def test_a_file_in_the_place_of_the_folder_is_named(tmp_path: Path) -> None:
+    (tmp_path / "taken").write_text("")
+    with pytest.raises(OSError) as caught:
+        write_run(synthetic_record(0.5), tmp_path / "taken")
+    assert caught.value.filename == str(tmp_path / "taken")
