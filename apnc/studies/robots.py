@@ -21,3 +21,8 @@ def changed(robot: Part, path: str, change: Callable[[Any], Any]) -> Part:
     present = getattr(robot, name)
     new: Any = changed(present, rest, change) if rest else change(present)
     return replace(robot, **{name: new})  # type: ignore[type-var]  # a dataclass
+
+
+def constant(value: Any) -> Callable[[Any], Any]:
+    """The change of any value into this one."""
+    return lambda _: value

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from apnc.loop.record import Record
-from apnc.studies.robots import changed
+from apnc.studies.robots import changed, constant
 from apnc.studies.rows import Row
 from exudyn_models.physics.options import PlantOptions
 from exudyn_models.robot import RobotDescription, load_robot
@@ -40,7 +40,7 @@ class Trot(NamedTuple):
 
 def robot(depth: float) -> RobotDescription:
     """Lilibot with another damping depth of its feet [m]."""
-    return changed(load_robot("lilibot"), "contact.damping_depth", lambda _: depth)
+    return changed(load_robot("lilibot"), "contact.damping_depth", constant(depth))
 
 
 @lru_cache

@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from apnc.loop.experiment import Experiment
-from apnc.studies.robots import changed
+from apnc.studies.robots import changed, constant
 from apnc.studies.rows import SPEED, STRICT, Row, cells_in, is_number, matching, values
 from apnc.studies.study import WALK_S, Study
 from apnc.studies.table import markdown
@@ -18,7 +18,7 @@ Change = Callable[[RobotDescription], RobotDescription]
 
 
 def _set(path: str, value: Any) -> Change:
-    return lambda robot: changed(robot, path, lambda _: value)
+    return lambda robot: changed(robot, path, constant(value))
 
 
 def _times(path: str, factor: float) -> Change:
