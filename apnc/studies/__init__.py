@@ -1,1 +1,1 @@
-"""The studies, and the one machine that runs them all."""
+"""Studies: many experiments, what is measured of each, what the paper claims, and figures."""

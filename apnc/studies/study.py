@@ -1,48 +1,128 @@
-"""What the model's own studies share: seeds, the controller built once, a table and its text."""
+"""A study: a grid of experiments, what is measured of a record, claims and figures."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from pathlib import Path
-from typing import Any
+import itertools
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, Final
 
-from apnc.studies.trial_table import Execution, Row, run_trials
-from build_fmu.build import host_fmu
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
+from apnc.loop.steps import steps_text
+from apnc.report.figure import Figure
+from apnc.studies.claims import Claim
+from apnc.studies.registry import METHODS, STUDIES, Entry
+from apnc.studies.rows import Row
+
+Value = str | float | int
+Chosen = Mapping[str, Sequence[Value]]
+"""Values along axes of a grid, by name of the axis."""
+
+BASELINES: Final = ("apnc", "tegotae", "phase_reset")
+"""The controllers that the paper compares."""
+
+WALK_MI: Final = 0.08
+"""MI of the walks of sections 3.1.2 to 3.1.4."""
+
+COURSE_MI: Final = 0.15
+"""MI of the walks with a damaged leg, through the states S1 to S3, and along the courses."""
+
+WALK_S: Final = 45.0
+"""Length of a walk in section 3.1 [s]."""
 
 
-def seeds_of(trials: int) -> range:
-    """Seeds of so many trials per cell of a grid.
+@dataclass(frozen=True)
+class Trial:
+    """One experiment of a study, and where it stands in the grid."""
 
-    Raises:
-        ValueError: fewer than one trial.
-    """
-    if trials < 1:
-        raise ValueError(f"trials = {trials} is not 1 or more")
-    return range(trials)
+    study: str
+    cell: Mapping[str, Any]
+    experiment: Experiment
+
+    @cached_property
+    def place(self) -> tuple[str, str]:
+        """Study, and key of the experiment: two studies may run the same one."""
+        return self.study, self.experiment.key()
 
 
-def run_study(
-    path: Path,
-    trials: Sequence[Any],
-    work: Callable[[Any], Row],
-    markdown: Callable[[Sequence[Row]], str],
-    execution: Execution | None = None,
-) -> list[Row]:
-    """Run the trials into a CSV table, and write its text beside it.
+@dataclass(frozen=True)
+class Study:
+    """A study.
 
     Args:
-        path: the table; the text has the same name and ends in ``.md``.
-        trials, work, execution: as for ``run_trials``.
-        markdown: makes the text of the rows.
-
-    Returns:
-        The rows as text.
-
-    Raises:
-        ValueError: no trial, or a table that is there without ``resume``.
-        OSError: a file cannot be written.
+        name: as in the registry.
+        experiment: makes one of the method, the seed and a value per axis, given by name.
+        axes: values along each axis of the grid, by name.
+        methods: controllers that are run.
+        measure: figures of a record that its summary does not have, ``None`` where undefined.
+        claims: what the paper says of it.
+        figures: made of the rows, of which there is at least one.
+        scenes: figures of single runs, which are run for them when the rows are there.
+        table: the rows as a Markdown table.
     """
-    host_fmu()  # built once here, not by every process at the same time
-    rows = run_trials(trials, work, path, execution)
-    path.with_suffix(".md").write_text(markdown(rows), encoding="utf-8")
-    return rows
+
+    name: str
+    experiment: Callable[..., Experiment]
+    axes: Chosen = field(default_factory=dict)
+    methods: tuple[str, ...] = BASELINES
+    measure: Callable[[Record], Row] = lambda record: {}
+    claims: tuple[Claim, ...] = ()
+    figures: Callable[[Sequence[Row]], list[Figure]] = lambda rows: []
+    scenes: Callable[[], list[Figure]] = lambda: []
+    table: Callable[[Sequence[Row]], str] | None = None
+
+    @property
+    def entry(self) -> Entry:
+        """Title, place in the paper and options."""
+        return STUDIES[self.name]
+
+    def grid(
+        self,
+        trials: int,
+        methods: Sequence[str] | None = None,
+        chosen: Chosen | None = None,
+        duration: float | None = None,
+    ) -> list[Trial]:
+        """Every value of every axis, every seed, every method; see ``run_study``."""
+        if trials < 1:
+            raise ValueError(f"trials = {trials} is not at least 1")
+        if methods is not None and METHODS not in self.entry.options:
+            raise ValueError(f"study '{self.name}' takes no methods; it has its own")
+        if not (used := tuple(dict.fromkeys(self.methods if methods is None else methods))):
+            raise ValueError("no method is given")
+        if unknown := set(chosen or {}) - set(self.axes):
+            allowed = ", ".join(self.axes) or "none"
+            raise ValueError(f"{unknown.pop()} is no axis of '{self.name}'; allowed: {allowed}")
+        values = (self._values(axis, (chosen or {}).get(axis)) for axis in self.axes)
+        cells = [dict(zip(self.axes, at, strict=True)) for at in itertools.product(*values)]
+        return [
+            self._trial({"method": method, **cell, "seed": seed}, duration)
+            for cell in cells
+            for seed in range(trials)
+            for method in used
+        ]
+
+    def _values(self, axis: str, chosen: Sequence[Value] | None) -> list[Value]:
+        known = self.axes[axis]
+        if chosen is None:
+            return list(known)
+        if not chosen:
+            raise ValueError(f"no {axis} is given")
+        try:
+            values = [type(known[0])(value) for value in chosen]
+        except ValueError:
+            raise ValueError(f"{axis} = {', '.join(map(str, chosen))}: not a number") from None
+        for value in values:  # numbers with a unit are free, names and counts are not
+            if not isinstance(value, float) and value not in known:
+                raise ValueError(f"{axis} '{value}' is not one of {', '.join(map(str, known))}")
+        return list(dict.fromkeys(values))
+
+    def _trial(self, cell: dict[str, Value], duration: float | None) -> Trial:
+        experiment = self.experiment(**cell)
+        if duration is not None:
+            experiment = replace(experiment, duration=duration)
+        mi = experiment.mi if isinstance(experiment.mi, int | float) else steps_text(experiment.mi)
+        first = {"method": cell["method"], "mi": mi, "seed": cell["seed"]}
+        return Trial(self.name, {**first, "duration": experiment.duration, **cell}, experiment)

@@ -1,0 +1,77 @@
+"""Which integration step is fine enough: it is halved until nothing moves any more."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment
+from apnc.report import theme
+from apnc.report.encoding import float32
+from apnc.report.figure import Figure, Trace
+from apnc.report.panels import line
+from apnc.studies.contact.measure import (
+    GRADUAL,
+    STEPS,
+    SUDDEN,
+    TICK,
+    measure,
+    robot,
+    touch_down,
+    trot,
+)
+from apnc.studies.plots import COLOURS
+from apnc.studies.rows import Row, cells_in, matching
+from apnc.studies.study import WALK_MI, Study
+
+
+def experiment(method: str, seed: int, depth: float, steps: int) -> Experiment:
+    """A walk with a damping depth [m] of the feet and so many integration steps per tick."""
+    own, step = robot(depth), TICK / steps
+    return Experiment(robot=own, method=method, seed=seed, mi=WALK_MI, duration=30.0, step=step)
+
+
+def figures(rows: Sequence[Row]) -> list[Figure]:
+    """Force error and chatter over the step, for each law of damping."""
+    data: list[Trace] = []
+    for depth in cells_in(rows, "depth"):
+        for column, words in (("force_error", "force error"), ("chatter", "chatter")):
+            shown = [row for row in matching(rows, depth=depth) if row.get(column)]
+            y = np.array([row[column] for row in shown])
+            x = {"x": [row["step_ms"] for row in shown], "mode": "lines+markers"}
+            label = f"{words}, damping depth {1e3 * depth:g} mm"
+            data.append(line(y, label, COLOURS[len(data) % len(COLOURS)]) | x)
+    axes = {"xaxis": theme.axis("step [ms]", type="log"), "hovermode": "closest"}
+    layout = theme.layout(380, yaxis=theme.axis("error, chatter [1]", type="log"), **axes)
+    note = "Open-loop trot against the finest step. Zero does not show."
+    return [Figure("contact-error", "Error over the step", note, data, layout, over_time=False)]
+
+
+def scenes() -> list[Figure]:
+    """Force under a foot at its first touch-down, by law of damping and step."""
+    data = []
+    laws = ((SUDDEN, STEPS[-1]), (GRADUAL, STEPS[-1]), (GRADUAL, 32), (GRADUAL, 16))
+    for (depth, steps), colour in zip(laws, COLOURS, strict=False):
+        time, force = touch_down(trot(depth, steps), steps)
+        label = f"{1e3 * TICK / steps:.3g} ms, damping depth {1e3 * depth:g} mm"
+        data.append(line(force, label, colour) | {"x": float32(time)})
+    layout = theme.layout(
+        340,
+        xaxis=theme.axis("time from touch-down [ms]"),
+        yaxis=theme.axis("vertical force on foot RF [N]"),
+    )
+    note = "Of the open-loop trot."
+    return [Figure("contact-force", "First touch-down", note, data, layout, over_time=False)]
+
+
+STUDY: Final = Study(
+    "contact",
+    experiment,
+    {"depth": (GRADUAL, SUDDEN), "steps": STEPS},
+    methods=("apnc",),
+    measure=measure,
+    figures=figures,
+    scenes=scenes,
+)

@@ -1,0 +1,123 @@
+"""Forces on the feet in an open-loop trot, against the finest step."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from apnc.loop.record import Record
+from apnc.studies.robots import changed, constant
+from apnc.studies.rows import Row
+from exudyn_models.physics.options import PlantOptions
+from exudyn_models.robot import RobotDescription, load_robot
+
+Array = NDArray[np.float64]
+
+TICK: Final = 1 / 60
+STEPS: Final = (8, 16, 32, 64, 128, 256)
+"""Integration steps per tick."""
+
+GRADUAL: Final = load_robot("lilibot").contact.damping_depth
+"""Depth over which damping sets in, as shipped [m]."""
+
+SUDDEN: Final = 1e-6
+"""Damping depth [m] that is as good as none: damping jumps in at first touch."""
+
+OPEN_LOOP: Final = 3.0
+"""Length of the open-loop trot [s]; its first second does not count."""
+
+
+class Trot(NamedTuple):
+    """Forces on the feet after every step, shape (steps, n_legs, 3), and the place at the end."""
+
+    forces: Array
+    place: Array
+
+
+def robot(depth: float) -> RobotDescription:
+    """Lilibot with another damping depth of its feet [m]."""
+    return changed(load_robot("lilibot"), "contact.damping_depth", constant(depth))
+
+
+@lru_cache
+def trot(depth: float, steps: int) -> Trot:
+    """Trot on fixed phases, integrated with ``steps`` steps per tick."""
+    from exudyn_models.physics.plant import Plant  # noqa: PLC0415  # takes seconds
+
+    plant = Plant(robot(depth), options=PlantOptions(step=TICK / steps))
+    side = np.array([1.0, -1.0, -1.0, 1.0])
+    forces = []
+    for tick in range(round(OPEN_LOOP / TICK)):
+        hip = 0.13 * math.sin(0.12 * tick) * side - 0.111
+        knee = 0.08 * math.cos(0.12 * tick) * side - 0.039
+        for _ in range(steps):
+            plant.advance(hip, knee, TICK / steps)
+            if tick >= 60:
+                forces.append(plant.sample()["foot_force"])
+    return Trot(np.array(forces), plant.sample()["position"])
+
+
+def measure(record: Record) -> Row:
+    """Errors of the open-loop trot with the step of a walk, and how fast the walk was computed."""
+    depth = record.robot.contact.damping_depth
+    steps = round(TICK / record.experiment.step)
+    return {
+        "step_ms": 1e3 * TICK / steps,
+        "real_time_factor": record.ended_at / record.wall_s,
+        **errors(trot(depth, steps), trot(depth, STEPS[-1])),
+    }
+
+
+def errors(own: Trot, finest: Trot) -> Row:
+    """How a trot differs from one with the finest step.
+
+    Returns:
+        ``peak_N``: largest vertical force on a foot; ``force_error``: rms difference of the
+        vertical forces, as often per tick as the coarsest step, over their rms;
+        ``tick_force_error``: the same for the means over each tick; ``chatter``; and
+        ``distance_error_mm``: between the places at the end.
+    """
+    forces, reference = _per_tick(own), _per_tick(finest)
+    return {
+        "peak_N": float(own.forces[:, :, 2].max()),
+        "force_error": _relative(_coarsest(forces), _coarsest(reference)),
+        "tick_force_error": _relative(forces.mean(axis=1), reference.mean(axis=1)),
+        "chatter": chatter(own.forces),
+        "distance_error_mm": 1e3 * float(np.linalg.norm(own.place - finest.place)),
+    }
+
+
+def chatter(forces: Array) -> float:
+    """Share of loaded samples at which a lateral force turns round twice in two steps."""
+    loaded = forces[2:, :, 2] > 1.0
+    change = np.diff(forces[:, :, :2], axis=0)
+    sharp = np.abs(change) > 0.1
+    turned = (change[1:] * change[:-1] < 0.0) & sharp[1:] & sharp[:-1]
+    return float((turned.any(axis=2) & loaded).sum() / loaded.sum())
+
+
+def _per_tick(trot: Trot) -> Array:
+    """Vertical forces by tick, step in the tick and leg."""
+    ticks = round(OPEN_LOOP / TICK) - 60
+    return trot.forces[:, :, 2].reshape(ticks, -1, trot.forces.shape[1])
+
+
+def _coarsest(forces: Array) -> Array:
+    every = forces.shape[1] // STEPS[0]
+    return forces[:, every - 1 :: every]
+
+
+def _relative(values: Array, reference: Array) -> float:
+    return float(np.sqrt(((values - reference) ** 2).mean() / (reference**2).mean()))
+
+
+def touch_down(trot: Trot, steps: int) -> tuple[Array, Array]:
+    """Time [ms] and vertical force [N] of the first leg around its first touch-down."""
+    force = trot.forces[:, 0, 2]
+    first = int(np.flatnonzero((force[1:] > 0.0) & (force[:-1] == 0.0))[0])
+    window = slice(first - steps // 4, first + 2 * steps)
+    return (np.arange(len(force))[window] - first) * 1e3 * TICK / steps, force[window]

@@ -1,0 +1,155 @@
+"""Runs a study: what is missing, on whatever workers, into one table."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any, Final
+
+import apnc_core
+from apnc.loop.csv_file import write_csv
+from apnc.loop.record import Record
+from apnc.loop.simulate import simulate
+from apnc.report.folder import write_together
+from apnc.studies.registry import ALL, METHODS, STUDIES, load, names_of
+from apnc.studies.report import files_of
+from apnc.studies.rows import Row
+from apnc.studies.store import Store
+from apnc.studies.study import Chosen, Trial
+from apnc.studies.workers import pool
+from apnc.summary import summarise
+from build_fmu.build import host_fmu
+
+Progress = Callable[[int, int, float, float], None]
+"""Called with the trials done and their total, and the simulated time done and its total [s]."""
+
+ROWS_FILE: Final = "trials.jsonl"
+
+_LEFT_OUT: Final = ("method", "mi", "seed", "phi_target", "message",  # in the cell, or elsewhere
+                    "real_time_factor", "fmu_share_of_wall_time")  # other at every run # fmt: skip
+
+
+def run_study(
+    name: str,
+    *,
+    trials: int = 20,
+    methods: Sequence[str] | None = None,
+    workers: int = 1,
+    scheduler: str | None = None,
+    output: Path | str | None = None,
+    resume: bool = False,
+    series: bool = False,
+    duration: float | None = None,
+    chosen: Chosen | None = None,
+    progress: Progress = lambda done, total, simulated, total_s: None,
+    stop: Callable[[], bool] = lambda: False,
+) -> list[Row]:
+    """Run a study, or ``all`` of the paper, and write its table, report and claims.
+
+    Args:
+        name: a study of the registry, or ``all``.
+        trials: seeds per cell of the grid: 0 ... trials - 1.
+        methods: controllers to compare; the study's own if omitted. With ``all``, studies that
+            take no methods keep their own.
+        workers: processes on this machine.
+        scheduler: address of a Dask scheduler; the trials then run there.
+        output: folder, made if missing; None keeps no files.
+        resume: keep what the folder holds of the very same experiments; those that ended with an
+            error run again.
+        series: keep the record of every trial, in ``series/``.
+        duration: simulated time of every trial [s]; the study's own if omitted.
+        chosen: values along axes of the grid, by name; all of the study's if omitted.
+        progress: called after every trial.
+        stop: asked before every trial; True ends the study, what is finished stays.
+
+    Returns:
+        The rows in the order of the grid, fewer if it was stopped.
+
+    Raises:
+        ValueError: a value outside what is allowed, or a folder that holds trials without
+            ``resume``.
+        OSError: a file cannot be written.
+    """
+    grid = {trial.place: trial for trial in grid_of(name, trials, methods, chosen, duration)}
+    folder = None if output is None else Path(output)
+    path = None if folder is None else folder / ROWS_FILE
+    if folder is None and series:
+        raise ValueError("series are kept in a folder: give an output")
+    if path is not None and path.exists() and not resume:
+        raise ValueError(f"{path} holds trials already; --resume continues them")
+    run_on, begin = pool(workers, scheduler), time.perf_counter()
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    for legs in {len(t.experiment.description.legs) for t in grid.values()}:
+        host_fmu(legs)  # built once here, not by every worker at the same time
+    work = partial(run_trial, series=folder / "series" if folder and series else None)
+    store, total = Store(path), sum(trial.experiment.duration for trial in grid.values())
+    try:
+        left = {at: t for at, t in grid.items() if store.rows.get(at, {}).get("error") != ""}
+
+        def tell() -> None:
+            missing = sum(trial.experiment.duration for trial in left.values())
+            progress(len(grid) - len(left), len(grid), total - missing, total)
+
+        tell()
+        for row in run_on(list(left.values()), work, stop):
+            store.add(row)
+            del left[row["study"], row["key"]]
+            tell()
+    finally:
+        store.close()
+    rows = [store.rows[at] for at in grid if at in store.rows]
+    if folder is not None:
+        wall_s = time.perf_counter() - begin
+        write_together(folder, files_of(list(grid.values()), rows, wall_s, scenes=not left))
+    return rows
+
+
+def grid_of(
+    name: str,
+    trials: int,
+    methods: Sequence[str] | None = None,
+    chosen: Chosen | None = None,
+    duration: float | None = None,
+) -> list[Trial]:
+    """The trials of a study, or of all of the paper's; see ``run_study``."""
+    grid: list[Trial] = []
+    for each in names_of(name):
+        takes = name != ALL or METHODS in STUDIES[each].options
+        grid += load(each).grid(trials, methods if takes else None, chosen, duration)
+    return grid
+
+
+def run_trial(trial: Trial, series: Path | None = None) -> Row:
+    """Row of a trial; one that raises becomes a row with its error.
+
+    Args:
+        trial: the trial.
+        series: folder for its record, or None to keep none.
+    """
+    row: Row = {"study": trial.study, "key": trial.place[1], **trial.cell}
+    try:
+        record = simulate(trial.experiment)
+        if series is not None:
+            write_together(series, {f"{'-'.join(trial.place)}.csv": partial(write_csv, record)})
+        return row | measured(trial.study, record)
+    except Exception as error:
+        text = " ".join(f"{type(error).__name__}: {error}".split())
+        return row | {"version": apnc_core.__version__, "end": "error", "error": text}
+
+
+def measured(study: str, record: Record) -> Row:
+    """Summary and the study's own figures of a record, how it ended, and what broke down."""
+    found = summarise(record).to_dict()
+    ended = {"ended_at_s": found.pop("duration_s"), "end": found.pop("end")}
+    phases = {f"phi_final_1{k}": phi for k, phi in enumerate(found.pop("phi_final"), start=2)}
+    single = {k: v for k, v in found.items() if k not in _LEFT_OUT and not isinstance(v, dict)}
+    own = {name: _finite(value) for name, value in load(study).measure(record).items()}
+    return single | phases | own | ended | {"error": record.message}
+
+
+def _finite(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,129 @@
+"""Plots of rows: boxes or points per cell and method, and marks of success."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+from apnc.report import theme
+from apnc.report.figure import Figure, Trace
+from apnc.studies.rows import (
+    AUTHORS,
+    STRICT,
+    Row,
+    cells_in,
+    is_number,
+    matching,
+    methods_in,
+    successes,
+)
+
+MIN_BOX: Final = 5
+"""Fewer values than this are shown one by one: quartiles of four say nothing."""
+
+CRITERIA: Final = {
+    STRICT: "strict criterion: within 0.6 rad of the trot, to the end",
+    AUTHORS: "authors' criterion: first below 2.8 rad",
+}
+COLOURS: Final = (theme.BLUE, theme.ORANGE, theme.GREEN, theme.PURPLE, theme.VERMILLION, theme.SKY)
+
+_STYLES: Final = {
+    "apnc": ("APNC", theme.BLUE, "circle"),
+    "apc": ("APC alone", theme.SKY, "circle-open"),
+    "tegotae": ("Tegotae", theme.ORANGE, "diamond"),
+    "phase_reset": ("phase resetting", theme.GREEN, "triangle-up"),
+}
+
+
+def style(method: str) -> tuple[str, str, str]:
+    """Label, colour and symbol of a method; one without its own still shows, by its name."""
+    return _STYLES.get(method, (method, theme.PURPLE, "square"))
+
+
+def spread(
+    points: Sequence[tuple[str, float]], name: str, colour: str, symbol: str = "circle"
+) -> list[Trace]:
+    """Traces of numbers by category: a box for five and more, the points themselves for fewer."""
+    count = {category: sum(c == category for c, _ in points) for category, _ in points}
+    box = {"type": "box", "marker": {"color": colour, "size": 4}, "line": {"width": 1.2}}
+    mark = {"color": colour, "size": 7, "symbol": symbol}
+    single = {"type": "scatter", "mode": "markers", "marker": mark}
+    traces: list[Trace] = []
+    for look, boxed in ((box, True), (single, False)):
+        part = [(c, value) for c, value in points if (count[c] >= MIN_BOX) is boxed]
+        if part:
+            place = {"x": [c for c, _ in part], "y": [value for _, value in part]}
+            group = {"name": name, "offsetgroup": name, "legendgroup": name}
+            traces.append(look | place | group | {"showlegend": not traces})
+    return traces
+
+
+def over_axis(
+    rows: Sequence[Row], axis: tuple[str, str], column: str, label: str, note: str = ""
+) -> Figure:
+    """A column over an axis (its name and title), per method."""
+    traces = []
+    for method in methods_in(rows):
+        points = [
+            (str(row[axis[0]]), float(row[column]))
+            for row in matching(rows, method=method)
+            if is_number(row.get(column))
+        ]
+        traces += spread(points, *style(method))
+    title = label.split(" [", maxsplit=1)[0].capitalize()
+    cells = [str(cell) for cell in cells_in(rows, axis[0])]
+    return _figure(f"{rows[0]['study']}-{column}", title, note, traces, cells, axis[1], label)
+
+
+def _figure(
+    key: str, title: str, note: str, data: list[Trace], cells: list[str], x: str, y: str
+) -> Figure:
+    layout = theme.layout(
+        320,
+        xaxis=theme.axis(x, type="category", categoryorder="array", categoryarray=cells),
+        yaxis=theme.axis(y),
+        boxmode="group",
+        scattermode="group",
+        hovermode="closest",
+    )
+    return Figure(key, title, note, data, layout, over_time=False)
+
+
+def convergence(rows: Sequence[Row], axis: tuple[str, str]) -> list[Figure]:
+    """By each criterion: times of the trials that converged, and above them their share."""
+    return [_convergence(rows, axis, column) for column in CRITERIA]
+
+
+def _convergence(rows: Sequence[Row], axis: tuple[str, str], column: str) -> Figure:
+    note = f"By the {CRITERIA[column]}. Below: trials that converged; marks above: their share."
+    figure = over_axis(rows, axis, column, "convergence time [s]", note)
+    cells = cells_in(rows, axis[0])
+    for method in methods_in(rows):
+        label, colour, symbol = style(method)
+        hits = [successes(rows, column, method=method, **{axis[0]: cell}) for cell in cells]
+        share = [100.0 * sum(hit) / len(hit) if hit else None for hit in hits]
+        look = {
+            "symbol": symbol,
+            "color": colour,
+            "size": 9,
+            "line": {"color": theme.INK},
+        }
+        trace = {"type": "scatter", "mode": "markers", "name": f"{label}: success", "marker": look}
+        place = {"x": [str(cell) for cell in cells], "y": share, "yaxis": "y2"}
+        figure.data.append(trace | place | {"legendgroup": label, "offsetgroup": label})
+    figure.layout["height"] = 380
+    figure.layout["yaxis"] |= {"rangemode": "tozero", "domain": [0.0, 0.68]}
+    figure.layout["yaxis2"] = theme.axis("success [%]", range=[-14, 114], domain=[0.74, 1.0])
+    return figure
+
+
+def side_by_side(
+    key: str, title: str, note: str, unit: str, groups: Mapping[str, Sequence[float]]
+) -> Figure:
+    """Groups of numbers beside each other, each with its own colour."""
+    traces = [
+        trace | {"showlegend": False, "offsetgroup": ""}
+        for at, (name, numbers) in enumerate(groups.items())
+        for trace in spread([(name, value) for value in numbers], name, COLOURS[at % len(COLOURS)])
+    ]
+    return _figure(key, title, note, traces, list(groups), "", unit)

@@ -1,0 +1,129 @@
+"""What a study leaves in its folder: table, report, claims, and Markdown tables."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Final, NamedTuple
+
+from apnc.bench.run import machine
+from apnc.report.figure import Figure
+from apnc.report.folder import Write
+from apnc.report.html import page
+from apnc.studies.claims import Claim, Finding, findings
+from apnc.studies.plots import CRITERIA, style
+from apnc.studies.registry import STUDIES, load
+from apnc.studies.rows import Row, matching, methods_in
+from apnc.studies.study import Study, Trial
+
+TABLE_FILE: Final = "trials.csv"
+
+
+class Part(NamedTuple):
+    """What the report shows of one study."""
+
+    study: Study
+    facts: list[tuple[str, str]]
+    claims: list[tuple[Claim, Finding]]
+    failed: list[tuple[str, str]]
+    figures: list[Figure]
+
+
+def files_of(
+    grid: Sequence[Trial], rows: Sequence[Row], wall_s: float, *, scenes: bool
+) -> dict[str, Write]:
+    """What writes each file of a study's folder, by its name.
+
+    Args:
+        grid: trials asked for.
+        rows: of those that were run.
+        wall_s: wall time that the rows took [s].
+        scenes: run single experiments again to show them over time.
+    """
+    parts = [
+        part_of(load(name), [trial for trial in grid if trial.study == name], own, scenes)
+        for name in STUDIES
+        if (own := matching(rows, study=name))
+    ]
+    facts = _facts(rows, wall_s)
+    texts = {
+        "report.html": page(
+            "study.html.j2",
+            [figure for part in parts for figure in part.figures],
+            package="apnc.studies",
+            parts=parts,
+            facts=facts,
+        ),
+        "claims.md": claims_markdown(parts, facts),
+    }
+    for part in parts:
+        if part.study.table is not None:
+            own = matching(rows, study=part.study.name)
+            texts[f"{part.study.name}.md"] = part.study.table(own)
+    files: dict[str, Write] = {TABLE_FILE: partial(write_table, rows)}
+    for name, text in texts.items():
+        files[name] = partial(Path.write_text, data=text, encoding="utf-8")
+    return files
+
+
+def part_of(study: Study, grid: Sequence[Trial], rows: Sequence[Row], scenes: bool) -> Part:
+    """What the report shows of the rows of one study."""
+    commands = {trial.place: trial.experiment.command() for trial in grid}
+    failed = [
+        (row["error"] or row["end"], commands[row["study"], row["key"]])
+        for row in rows
+        if row["end"] != "complete"
+    ]
+    figures = [*study.figures(rows), *(study.scenes() if scenes else [])]
+    return Part(study, _asked(study, grid, rows), findings(rows, study.claims), failed, figures)
+
+
+def _asked(study: Study, grid: Sequence[Trial], rows: Sequence[Row]) -> list[tuple[str, str]]:
+    """Robot, duration, methods and seeds, and what was asked for and not run."""
+    run = methods_in(rows)
+    methods = ", ".join(style(method)[0] for method in run)
+    if missing := [style(method)[0] for method in study.methods if method not in run]:
+        methods += f"; not run: {', '.join(missing)}"
+    robots = sorted({trial.experiment.description.name for trial in grid})
+    spans = sorted({trial.experiment.duration for trial in grid})
+    return [
+        ("where", study.entry.place or "not in the paper"),
+        ("robot", ", ".join(robots)),
+        ("duration", ", ".join(f"{span:g} s" for span in spans)),
+        ("methods", methods),
+        ("seeds", str(len({row["seed"] for row in rows}))),
+        ("trials", f"{len(rows)} of {len(grid)}"),
+        ("criteria", "; ".join(CRITERIA.values())),
+    ]
+
+
+def _facts(rows: Sequence[Row], wall_s: float) -> list[tuple[str, str]]:
+    here = machine()
+    simulated = sum(row["duration"] for row in rows)
+    return [
+        ("trials", f"{len(rows)}, {simulated:.0f} s simulated in {wall_s / 60:.1f} min"),
+        ("machine", here["processor"]),
+        ("apnc", f"{', '.join(sorted({row['version'] for row in rows}))}, commit {here['commit']}"),
+        ("python", here["python"]),
+    ]
+
+
+def claims_markdown(parts: Sequence[Part], facts: Sequence[tuple[str, str]]) -> str:
+    """The claims as a Markdown table."""
+    lines = [*(f"- {name}: {text}" for name, text in facts), ""]
+    lines += ["| paper says | where | measured (median and 95 % interval) | verdict |"]
+    lines += ["|---|---|---|---|"]
+    for claim, found in (pair for part in parts for pair in part.claims):
+        lines.append(f"| {claim.text} | {claim.place} | {found.measured} | **{found.verdict}** |")
+    return "\n".join(lines) + "\n"
+
+
+def write_table(rows: Sequence[Row], path: Path) -> None:
+    """Write rows as one tidy CSV with a column for every entry that any of them has."""
+    columns = dict.fromkeys(name for row in rows for name in row)
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(columns), restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)

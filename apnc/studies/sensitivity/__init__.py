@@ -1,0 +1,111 @@
+"""How sure must a number of the robot be? Each is changed alone, and the walk is judged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment
+from apnc.studies.robots import changed, constant
+from apnc.studies.rows import SPEED, STRICT, Row, cells_in, is_number, matching, values
+from apnc.studies.study import WALK_S, Study
+from apnc.studies.table import markdown
+from exudyn_models.robot import RobotDescription, load_robot
+
+Change = Callable[[RobotDescription], RobotDescription]
+
+
+def _set(path: str, value: Any) -> Change:
+    return lambda robot: changed(robot, path, constant(value))
+
+
+def _times(path: str, factor: float) -> Change:
+    return lambda robot: changed(robot, path, lambda value: factor * value)
+
+
+def _shifted(ahead: float = 0.0, up: float = 0.0) -> Change:
+    """The centre of mass of the trunk moved [m]."""
+    return lambda robot: changed(
+        robot, "trunk.body.com", lambda com: (com[0] + ahead, com[1], com[2] + up)
+    )
+
+
+def _lighter_tibiae(moved: float) -> Change:
+    """Mass moved from each tibia to its femur [kg]."""
+
+    def leg(own: Any) -> Any:
+        heavier = changed(own, "femur.mass", lambda mass: mass + moved)
+        return changed(heavier, "tibia.mass", lambda mass: mass - moved)
+
+    return lambda robot: changed(robot, "legs", lambda legs: tuple(map(leg, legs)))
+
+
+CHANGES: Final[Mapping[str, Change]] = {
+    "nothing": lambda robot: robot,
+    "foot stiffness x 0.7": _times("contact.stiffness", 0.7),
+    "foot stiffness x 1.3": _times("contact.stiffness", 1.3),
+    "foot damping x 0.7": _times("contact.damping", 0.7),
+    "foot damping x 1.3": _times("contact.damping", 1.3),
+    "damping depth x 0.5": _times("contact.damping_depth", 0.5),
+    "damping depth x 2": _times("contact.damping_depth", 2.0),
+    "friction 0.5": _set("contact.friction", 0.5),
+    "friction 1.0": _set("contact.friction", 1.0),
+    "friction speed x 0.7": _times("contact.friction_speed", 0.7),
+    "friction speed x 1.5": _times("contact.friction_speed", 1.5),
+    "P x 0.8": _times("servo.stiffness", 0.8),
+    "P x 1.2": _times("servo.stiffness", 1.2),
+    "D x 0.8": _times("servo.damping", 0.8),
+    "D x 1.2": _times("servo.damping", 1.2),
+    "reflected inertia x 0.7": _times("servo.reflected_inertia", 0.7),
+    "reflected inertia x 2": _times("servo.reflected_inertia", 2.0),
+    "servo latency 5 ms": _set("servo.latency", 0.005),
+    "servo latency 16.7 ms": _set("servo.latency", 1 / 60),
+    "trunk's centre of mass 10 mm higher": _shifted(up=0.010),
+    "10 mm lower": _shifted(up=-0.010),
+    "5 mm further ahead": _shifted(ahead=0.005),
+    "5 mm further back": _shifted(ahead=-0.005),
+    "25 g from each tibia to its femur": _lighter_tibiae(0.025),
+    "sensor delay x 0.7": _times("sensor.delay", 0.7),
+    "sensor delay x 1.5": _times("sensor.delay", 1.5),
+    "sensor noise x 3": _times("sensor.noise", 3.0),
+    "sensor shows the norm": _set("sensor.component", "norm"),
+}
+"""What is changed, by the name it has in the table."""
+
+
+def experiment(method: str, seed: int, change: str, mi: float) -> Experiment:
+    """A walk of the changed robot."""
+    robot = CHANGES[change](load_robot("lilibot"))
+    return Experiment(robot=robot, method=method, seed=seed, mi=mi, duration=WALK_S)
+
+
+def table(rows: Sequence[Row]) -> str:
+    """A line per change, strict times and mean speed per MI; "-" did not form."""
+    return markdown(_line(change, matching(rows, change=change)) for change in _in_order(rows))
+
+
+def _in_order(rows: Sequence[Row]) -> list[str]:
+    return list(dict.fromkeys(row["change"] for row in rows))
+
+
+def _line(change: str, rows: Sequence[Row]) -> dict[str, str]:
+    entries = {"change": change}
+    for mi in cells_in(rows, "mi"):
+        own = matching(rows, mi=mi)
+        times = [row.get(STRICT) for row in own]
+        shown = (f"{time:.1f}" if is_number(time) else "-" for time in times)
+        speed = values(own, SPEED)
+        entries[f"MI {mi:.2f}: trot after [s]"] = ", ".join(shown)
+        entries[f"MI {mi:.2f}: speed [m/s]"] = f"{np.mean(speed):.3f}" if speed else "-"
+    return entries | {"fell": f"{len(matching(rows, fell=True))}/{len(rows)}"}
+
+
+STUDY: Final = Study(
+    "sensitivity",
+    experiment,
+    {"change": tuple(CHANGES), "mi": (0.08, 0.16)},
+    methods=("apnc",),
+    table=table,
+)

@@ -1,0 +1,101 @@
+"""What became of the gait in each of the states S1 to S3."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from apnc import metrics
+from apnc.loop.record import End, Record
+from apnc.studies.rows import Row
+from apnc.studies.states.timeline import TIMELINE, Timeline
+
+STOPPED: Final = 0.2
+"""An oscillator whose o1 moves less than this, of about 1.7 in a cycle, counts as stopped [1]."""
+
+WALKS: Final = 0.03
+"""Slowest mean speed along the heading that counts as walking [m/s]."""
+
+ROOTED: Final = 0.01
+"""Fastest mean speed along the heading that counts as rocking in place [m/s]."""
+
+SETTLING: Final = 2.0
+"""Time that a broken sensor gets to stop its oscillator [s]."""
+
+LAST: Final = 3.0
+"""Last part of a state over which its speed is the mean [s]."""
+
+
+def measure(record: Record) -> Row:
+    """What became of the gait; of a run that ended early no state went as the paper says."""
+    if record.complete and record.ended_at >= TIMELINE.end:
+        found = judge(record)
+        found |= as_paper_says(found, record.experiment.method)
+    else:
+        found = {"S1": False, "S2": False, "S3": False}
+    return {f"state_{name}": value for name, value in found.items()} | {
+        "state_fell": record.end is End.fell
+    }
+
+
+def as_paper_says(found: Row, method: str) -> Row:
+    """Whether S1, S2 and S3 went as in Fig. 10-12, with (apnc) or without the couplings."""
+    s2, s3 = found["front_stopped"], found["in_phase"] and abs(found["speed_s3"]) <= ROOTED
+    if method == "apnc":
+        s2 = found["kept"] and found["speed_s2"] >= WALKS
+        s3 = found["recovered"] and found["speed_s3"] >= WALKS
+    return {"S1": found["formed"], "S2": s2, "S3": s3}
+
+
+def judge(record: Record, when: Timeline = TIMELINE) -> Row:
+    """What became of the gait in a complete run of four legs along a timeline.
+
+    Returns:
+        ``formed``: S1: strict criterion, from the set-down to the break;
+        ``formation_time_s``: S1: from the touch moment [s];
+        ``kept``: S2: every phase within 0.6 rad of the trot from the break to the stop;
+        ``front_stopped``: S2: both front oscillators rest;
+        ``recovered``: S3: strict criterion, from the restart to the end;
+        ``recovery_time_s``: S3: from the restart [s];
+        ``in_phase``: S3: all legs within 0.6 rad of each other in the last second;
+        ``speed_s1``, ``speed_s2``, ``speed_s3``: mean speed along the heading over the last 3 s of
+        each state [m/s];
+        ``stored_at_s``: when the couplings switched on [s], None if never.
+    """
+    c, time, trot = record.controller, record.time, metrics.GAITS[4]["trot"]
+
+    def part(begin: float, end: float) -> slice:
+        first, last = np.searchsorted(time, [begin - 1e-9, end - 1e-9])
+        return slice(int(first), int(last))
+
+    def converged(where: slice, touch: int | None) -> float | None:
+        o1, o2 = c["o1"][where], c["o2"][where]
+        return metrics.convergence_time(time[where], o1, o2, touch, trot)
+
+    def stays(where: slice, gait: tuple[float, ...], last: int = 0) -> bool:
+        error = metrics.phase_error(c["o1"][where], c["o2"][where], gait)[-last:]
+        return bool((error <= metrics.STRICT_TOLERANCE).all())
+
+    s1, s2 = part(when.lowered, when.broken), part(when.broken, when.stopped)
+    s3, late_s2 = part(when.restarted, when.end), part(when.broken + SETTLING, when.stopped)
+    touch = metrics.touch_moment(
+        record.plant["foot_force"][s1, :, 2], record.mass * metrics.GRAVITY
+    )
+    formation, recovery = converged(s1, touch), converged(s3, 0)
+    front = [leg for leg, name in enumerate(record.legs) if name.endswith("F")]
+    moved = np.ptp(c["o1"][late_s2][:, front], axis=0)
+    speed = metrics.smoothed_speed(time, record.plant["position"], record.plant["rpy"][:, 2])
+    ends = {"speed_s1": when.broken, "speed_s2": when.stopped, "speed_s3": when.end}
+    stored = time[c["kappa"] > 0.0]
+    return {
+        "formed": formation is not None,
+        "formation_time_s": formation,
+        "kept": stays(s2, trot),
+        "front_stopped": bool((moved < STOPPED).all()),
+        "recovered": recovery is not None,
+        "recovery_time_s": recovery,
+        "in_phase": stays(s3, (0.0, 0.0, 0.0), last=round(record.experiment.rate)),
+        **{name: float(speed[part(end - LAST, end)].mean()) for name, end in ends.items()},
+        "stored_at_s": float(stored[0]) if len(stored) else None,
+    }

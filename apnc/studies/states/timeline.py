@@ -1,0 +1,56 @@
+"""When what happens to the robot in the states S1 to S3; only time decides."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, Final
+
+from apnc.loop.experiment import Experiment
+from apnc.studies.study import COURSE_MI
+
+
+@dataclass(frozen=True)
+class Timeline:
+    """Times from the start of the run [s].
+
+    Args:
+        lowered: the robot, held in the air before, is set down (S1); 0 if it stands from the start.
+        broken: the sensors of the front legs stick at 0.9 (S2).
+        stopped: MI is 0, the load feedback of all legs is removed (S3).
+        restarted: MI is back, the feedback is not.
+        end: end of the run.
+
+    Raises:
+        ValueError: times that do not follow each other.
+
+    Source: section 3.2 and Fig. 9-12; 1.7 s and 20 ... 24 s are the paper's.
+    """
+
+    lowered: float = 1.7
+    broken: float = 14.0
+    stopped: float = 20.0
+    restarted: float = 24.0
+    end: float = 34.0
+
+    def __post_init__(self) -> None:
+        """Check the order."""
+        times = (self.lowered, self.broken, self.stopped, self.restarted, self.end)
+        if self.lowered < 0.0 or not all(a < b for a, b in pairwise(times)):
+            raise ValueError(f"times {times} s do not follow each other")
+
+    def experiment(self, method: str, seed: int, **fields: Any) -> Experiment:
+        """The run through all states."""
+        steps = {0.0: "S1", self.lowered: "C1", self.broken: "S2", self.stopped: "S3"}
+        mi = ((0.0, COURSE_MI), (self.stopped, 0.0), (self.restarted, COURSE_MI))
+        return Experiment(
+            method=method,
+            seed=seed,
+            mi=mi,
+            conditions=tuple(steps.items()),
+            duration=self.end,
+            **fields,
+        )
+
+
+TIMELINE: Final = Timeline()

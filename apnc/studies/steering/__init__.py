@@ -1,0 +1,109 @@
+"""Section 3.3: speed follows MI, and the robot turns where it is told to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
+from apnc.loop.steps import Steps, steps_of
+from apnc.report.figure import Figure
+from apnc.studies.claims import NO, Claim, Finding, verdict
+from apnc.studies.plots import side_by_side
+from apnc.studies.rows import Row, matching, values
+from apnc.studies.statistics import median
+from apnc.studies.study import COURSE_MI, Study
+
+SPEEDS: Final[Steps[float]] = ((0.0, COURSE_MI), (25.0, 0.4), (40.0, COURSE_MI))
+"""Start [s] and MI of every section of the course of Fig. 13."""
+
+TURNS: Final[Steps[float]] = ((0.0, 0.0), (20.0, -1.0), (35.0, 1.0), (50.0, 0.0))
+"""Start [s] and steering of every section of the course of Fig. 14; positive turns left."""
+
+SETTLING: Final = 5.0
+"""Time from the start of a section that does not count: the robot follows a new command [s]."""
+
+SPEED, YAW_RATE = "speed_section", "yaw_rate_section"
+
+
+def experiment(method: str, seed: int, course: str) -> Experiment:
+    """A walk along a course."""
+    mi, turn = (SPEEDS, 0.0) if course == "speeds" else (COURSE_MI, TURNS)
+    return Experiment(method=method, seed=seed, mi=mi, turn=turn, duration=60.0)
+
+
+def measure(record: Record) -> Row:
+    """Yaw rate [rad/s] in every section of the course of turns, else speed [m/s].
+
+    The mean over a section after its settling; None for one that the robot did not walk to its end.
+    """
+    turning = isinstance(record.experiment.turn, tuple)
+    steps = steps_of(record.experiment.turn if turning else record.experiment.mi)
+    starts = [start for start, _ in steps]
+    yaw, place = np.unwrap(record.plant["rpy"][:, 2]), record.plant["position"][:, :2]
+    found: Row = {}
+    for i, end in enumerate([*starts[1:], record.experiment.duration]):
+        begin, name = starts[i] + SETTLING, f"{YAW_RATE if turning else SPEED}_{i + 1}"
+        inside = np.flatnonzero((record.time >= begin) & (record.time < end))
+        if len(inside) < 2 or record.ended_at < end:
+            found[name] = None
+            continue
+        first, last = inside[[0, -1]]
+        way = yaw[last] - yaw[first] if turning else np.linalg.norm(place[last] - place[first])
+        found[name] = float(way / (end - begin))
+    return found
+
+
+def speed_steps(rows: Sequence[Row]) -> Finding:
+    """Speed doubles within a fifth with the step of MI, and comes back within 15 %."""
+    low, high, again = (median(values(rows, f"{SPEED}_{i}")) for i in (1, 2, 3))
+    text = f"{low.text(3)}, {high.text(3)}, {again.text(3, 'm/s')}"
+    if not (low.size and high.size and again.size):
+        return Finding(text, NO)
+    doubled = 1.6 <= high.value / low.value <= 2.4
+    back = abs(again.value / low.value - 1.0) <= 0.15
+    return Finding(text, verdict(doubled and back, high.value > low.value))
+
+
+def turns(rows: Sequence[Row]) -> Finding:
+    """The intervals of the yaw rate are below 0 to the right and above 0 to the left."""
+    right, left = (median(values(rows, f"{YAW_RATE}_{i}")) for i in (2, 3))
+    text = f"right {right.text(2)}, left {left.text(2, 'rad/s')}"
+    # without a number every comparison is false
+    return Finding(text, verdict(right.high < 0.0 < left.low, right.value < left.value))
+
+
+def figures(rows: Sequence[Row]) -> list[Figure]:
+    """Speed over the sections of the one course, yaw rate over those of the other."""
+    mis = [f"MI {mi:g}, section {i}" for i, (_, mi) in enumerate(SPEEDS, start=1)]
+    ways = ["straight", "right", "left", "straight again"]
+    return [
+        side_by_side(f"steering-{course}", title, note, unit, {
+            name: values(rows, f"{column}_{i}", course=course)
+            for i, name in enumerate(names, start=1)
+        })
+        for course, title, note, unit, column, names in (
+            ("speeds", "Speed", "MI stepped up and down.", "speed [m/s]", SPEED, mis),
+            ("turns", "Yaw rate", "Positive turns left.", "yaw rate [rad/s]", YAW_RATE, ways),
+        )
+        if matching(rows, course=course)
+    ]  # fmt: skip
+
+
+CLAIMS: Final = (
+    Claim("3.3, Fig. 13", "MI 0.15, 0.4, 0.15: from about 0.08 to 0.16 m/s and back", speed_steps),
+    Claim("3.3, Fig. 14", "steeper slopes on one side turn the robot to the other", turns),
+)
+
+STUDY: Final = Study(
+    "steering",
+    experiment,
+    {"course": ("speeds", "turns")},
+    methods=("apnc",),
+    measure=measure,
+    claims=CLAIMS,
+    figures=figures,
+)

@@ -1,0 +1,57 @@
+"""Rows on disk, appended as they come: no error, interrupt or kill loses a finished trial."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+from pathlib import Path
+
+from apnc.studies.rows import Row
+
+
+class Store:
+    """Finished trials, one JSON object per line; the last line of a trial counts.
+
+    Args:
+        path: the file, made if it is not there; None keeps the rows in memory only.
+
+    Attributes:
+        rows: by study and key.
+
+    A line that a kill has torn is dropped.
+    """
+
+    def __init__(self, path: Path | None) -> None:
+        self.rows: dict[tuple[str, str], Row] = {}
+        self._file = None if path is None else path.open("a+b")
+        if self._file is None:
+            return
+        self._file.seek(0)
+        *lines, torn = self._file.read().split(b"\n")
+        self._file.truncate(self._file.tell() - len(torn))
+        for line in lines:
+            with contextlib.suppress(ValueError, KeyError, TypeError):  # a damaged line
+                row = json.loads(line)
+                self.rows[row["study"], row["key"]] = row
+
+    def add(self, row: Row) -> None:
+        """Append a row; it is on disk when this returns.
+
+        Raises:
+            OSError: it cannot be written; the file is named.
+        """
+        self.rows[row["study"], row["key"]] = row
+        if self._file is None:
+            return
+        try:
+            self._file.write(json.dumps(row, allow_nan=False).encode() + b"\n")
+            self._file.flush()
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, self._file.name) from error
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._file is not None:
+            self._file.close()
