@@ -98,7 +98,8 @@ def bar(label: str) -> Iterator[Callable[[float, float, Callable[[float], str]],
         yield update
     finally:
         waiting.stop()
-        progress.stop()
+        if progress.live.is_started:
+            progress.stop()
 
 
 @contextmanager

@@ -40,7 +40,7 @@ def info(
     shown = [v for v in model.modelVariables if v.causality in ("input", "output", "parameter")]
     show_table(
         [
-            (v.name, v.causality, v.start or "", v.unit or "", v.description or "")
+            (v.name + "".join(f"[{n}]" for n in v.shape), v.causality, v.start or "", v.unit or "", v.description or "")
             for v in shown
         ],
         "name", "causality", "start", "unit", "description",

@@ -11,15 +11,21 @@ from typing import Final
 INTERRUPTED: Final = 130
 """Exit code after Ctrl-C."""
 
+NOTHING: Final = "interrupted, nothing recorded"
+
+
+class Interrupted(BaseException):
+    """Ctrl-C, with what to say about it. No KeyboardInterrupt, which libraries catch or replace."""
+
 
 class StopRequest:
     """A request to stop, for ``simulate`` and ``run_study`` to ask for.
 
-    Before it is first asked for, Ctrl-C raises KeyboardInterrupt. From then on the first Ctrl-C is
+    Before it is first asked for, Ctrl-C raises Interrupted. From then on the first Ctrl-C is
     only noted, since a record is growing, and the second raises.
 
     Attributes:
-        asked: whether Ctrl-C was pressed. An import may turn KeyboardInterrupt into another error,
+        asked: whether Ctrl-C was pressed. An import may turn what was raised into another error,
             or swallow it; this tells.
         running: whether a loop has begun.
     """
@@ -35,7 +41,7 @@ class StopRequest:
     def _note(self, _signal: int, _frame: FrameType | None) -> None:
         again, self.asked = self.asked, True
         if again or not self.running:
-            raise KeyboardInterrupt
+            raise Interrupted("interrupted" if self.running else NOTHING)
 
     @contextmanager
     def listening(self) -> Iterator[None]:

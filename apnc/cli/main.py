@@ -7,7 +7,7 @@ import io
 import sys
 from typing import Final
 
-from apnc.cli.interrupt import INTERRUPTED, STOP
+from apnc.cli.interrupt import INTERRUPTED, NOTHING, STOP, Interrupted
 
 BAD_USE: Final = 2
 
@@ -24,14 +24,10 @@ def main(arguments: list[str] | None = None) -> None:
     with STOP.listening():
         try:
             code = _run(arguments)
-        except KeyboardInterrupt:
-            code = _interrupted()
+        except Interrupted as request:
+            sys.stderr.write(f"{request}\n")
+            code = INTERRUPTED
     sys.exit(code)
-
-
-def _interrupted() -> int:
-    sys.stderr.write("interrupted\n" if STOP.running else "interrupted, nothing recorded\n")
-    return INTERRUPTED
 
 
 def _run(arguments: list[str] | None) -> int:
@@ -43,8 +39,8 @@ def _run(arguments: list[str] | None) -> int:
         command = typer.main.get_command(app)
         code = command.main(args=arguments, prog_name="apnc", standalone_mode=False)
     except Exception as error:
-        if STOP.asked or type(error).__name__ == "Abort":
-            return _interrupted()
+        if STOP.asked and not STOP.running:  # what an import has made of it
+            raise Interrupted(NOTHING) from None
         return _explained(error)
     return code if isinstance(code, int) else 0
 

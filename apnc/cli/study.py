@@ -13,7 +13,7 @@ from typer import Option
 
 import apnc
 from apnc.cli.console import bar, say, writable
-from apnc.cli.interrupt import INTERRUPTED, STOP
+from apnc.cli.interrupt import STOP, Interrupted
 from apnc.studies.registry import ALL, METHODS, STUDIES
 
 TRIAL_FAILED: Final = 1
@@ -73,8 +73,7 @@ def _run(
     failed = sum(row["end"] == "error" for row in rows)
     say(f"{len(rows)} trials, {failed} ended with an error; report: {output}/report.html")
     if STOP.asked:
-        say("interrupted; --resume finishes it", error=True)
-        raise typer.Exit(INTERRUPTED)
+        raise Interrupted("interrupted; --resume finishes it")
     raise typer.Exit(TRIAL_FAILED if failed else 0)
 
 

@@ -14,7 +14,7 @@ from typer import Option
 
 import apnc
 from apnc.cli.console import say, show_table, status, walking_bar, writable, writable_file
-from apnc.cli.interrupt import INTERRUPTED, STOP
+from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.loop.steps import parse_steps
 from apnc_core.enumerations import Method
 from exudyn_models.conditions import CONDITIONS
@@ -73,10 +73,9 @@ def walk(
     with walking_bar(experiment.duration) as progress:
         record = apnc.simulate(experiment, progress=progress, stop=STOP)
     if len(record) == 0:
-        say("interrupted, nothing recorded", error=True)
-        raise typer.Exit(INTERRUPTED)
+        raise Interrupted(NOTHING)
     _write(record, folder, json_path)
-    raise typer.Exit(_say_end(record, folder))
+    _say_end(record, folder)
 
 
 def experiment_of(options: Mapping[str, Any]) -> Experiment:
@@ -153,17 +152,16 @@ def _write(record: Record, folder: Path, json_path: Path | None) -> None:
         write_together(json_path.parent, {json_path.name: lambda path: path.write_bytes(summary)})
 
 
-def _say_end(record: Record, folder: Path) -> int:
-    """Print the key figures, where the files are and how it ended; the exit code."""
+def _say_end(record: Record, folder: Path) -> None:
+    """Print the key figures, where the files are and how it ended."""
     from apnc.report.wording import rows
 
     show_table(rows(apnc.summarise(record)))
     say(f"report: {folder}/report.html")
-    if record.complete:
-        return 0
     why = f": {record.message}" if record.message else ""
-    say(
-        f"{record.end} at {record.ended_at:.2f} s{why}; what was recorded is in {folder}",
-        error=True,
-    )
-    return INTERRUPTED if record.end is apnc.End.interrupted else ENDED_EARLY
+    words = f"{record.end} at {record.ended_at:.2f} s{why}; what was recorded is in {folder}"
+    if record.end is apnc.End.interrupted:
+        raise Interrupted(words)
+    if not record.complete:
+        say(words, error=True)
+        raise typer.Exit(ENDED_EARLY)
