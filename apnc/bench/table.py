@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from rich.console import Console
 from rich.table import Table
-
-from apnc.cli.console import out
 
 
 def show_bench(result: dict[str, Any]) -> None:
@@ -16,6 +15,7 @@ def show_bench(result: dict[str, Any]) -> None:
         table.add_column(heading, justify="left" if heading == "what" else "right")
     for what, time_ns, against, ratio, target in _rows(result):
         table.add_row(what, _ns(time_ns), against, f"{ratio:.2f}", target)
+    out = Console()
     out.print(table, highlight=False)
     size = result["fmu_bytes"] / 1000
     out.print(f"FMU with {len(result['fmu_platforms'])} platforms: {size:.0f} kB (at most 1000)")

@@ -1,35 +1,18 @@
-"""What the command line shows: progress, tables and one line per mistake."""
+"""What the command line shows: progress and tables; and the files it is about to write."""
+# ruff: noqa: PLC0415  # rich takes a tenth of a second
 
 from __future__ import annotations
 
-import signal
+import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    Progress,
-    TaskProgressColumn,
-    TextColumn,
-    TimeRemainingColumn,
-)
-from rich.table import Table
-
-from apnc.report.wording import rows
-from apnc.summary import Summary
-
-out = Console()
-err = Console(stderr=True)
-
-BAD_USE = 2
-INTERRUPTED = 130
+if TYPE_CHECKING:
+    from rich.status import Status
 
 
 def writable(folder: Path) -> Path:
@@ -40,8 +23,7 @@ def writable(folder: Path) -> Path:
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
+        tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:
         raise ValueError(f"output folder {folder} cannot be written: {error.strerror}") from None
     return folder
@@ -59,97 +41,77 @@ def writable_file(path: Path) -> Path:
     return path
 
 
-class StopRequest:
-    """Turns the first Ctrl-C into a request to stop at the next tick; the second one interrupts."""
+def say(text: str, *, error: bool = False) -> None:
+    """Print a line as it is, however long."""
+    print(text, file=sys.stderr if error else sys.stdout, flush=True)
 
-    def __init__(self) -> None:
-        self.asked = False
 
-    def __call__(self) -> bool:
-        """Whether a stop was asked for."""
-        return self.asked
+def status(text: str) -> Status:
+    """Words that stand on the console while the with statement runs."""
+    from rich.console import Console
 
-    @contextmanager
-    def listening(self) -> Iterator[StopRequest]:
-        """Listen to Ctrl-C inside the with statement."""
+    return Console(stderr=True).status(text)
 
-        def ask(_signal: int, _frame: FrameType | None) -> None:
-            self.asked = True
-            signal.signal(signal.SIGINT, before)
 
-        before = signal.signal(signal.SIGINT, ask)
-        try:
-            yield self
-        finally:
-            signal.signal(signal.SIGINT, before)
+def show_table(rows: Iterable[Iterable[str]], *headings: str) -> None:
+    """Print rows as a table."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(*headings, box=None, padding=(0, 2), show_header=bool(headings))
+    for row in rows:
+        table.add_row(*row)
+    Console().print(table, markup=False, highlight=False)
 
 
 @contextmanager
-def walking_bar(duration: float) -> Iterator[Any]:
-    """Progress bar of a walk; yields the function to call with the time [s] and the controller."""
-    bar = Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TaskProgressColumn(),
-        TextColumn("{task.fields[state]}"),
-        TimeRemainingColumn(),
-        console=err,
-        refresh_per_second=8,
-    )
-    task = bar.add_task("walking", total=duration, state="")
-    begin = shown = time.perf_counter()
+def bar(label: str) -> Iterator[Callable[[float, float, Callable[[float], str]], None]]:
+    """A bar with the time that remains; words that say it will come until something is done.
 
-    def update(t: float, controller: Any) -> None:
-        nonlocal shown
-        if not bar.live.is_started:  # not before the first tick: until then mistakes may show
-            bar.start()
+    Yields:
+        What to call with the simulated time done and its total [s], and what words the state given
+        the simulated time per wall time since the first call.
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
+
+    console = Console(stderr=True)
+    columns = ("{task.description}", BarColumn(), TaskProgressColumn(), "{task.fields[state]}")
+    progress = Progress(*columns, TimeRemainingColumn(), console=console)
+    task = progress.add_task(label, total=None, state="")
+    waiting = console.status(f"preparing: {label}")
+    begin = shown = before = 0.0
+
+    def update(done: float, total: float, state: Callable[[float], str]) -> None:
+        nonlocal begin, shown, before
         now = time.perf_counter()
-        if now - shown < 0.1 and t < duration - 1e-6:
-            return
-        shown = now
-        phases = " ".join(f"{angle:5.2f}" for angle in np.atleast_1d(controller.phi))
-        state = f"{t:5.1f} s  {t / (now - begin):4.1f}x real time  phi {phases} rad"
-        bar.update(task, completed=t, state=state)
+        if not progress.live.is_started:  # not earlier: until then mistakes may show
+            waiting.stop()
+            progress.start()
+            begin, before = now, done
+        if now - shown > 0.1 or done > total - 1e-6:
+            shown, speed = now, (done - before) / max(now - begin, 1e-9)
+            progress.update(task, completed=done, total=total, state=state(speed))
 
+    waiting.start()
     try:
         yield update
     finally:
-        if bar.live.is_started:
-            bar.stop()
+        waiting.stop()
+        if progress.live.is_started:
+            progress.stop()
 
 
 @contextmanager
-def study_bar(name: str, trials: int, simulated: float) -> Iterator[Any]:
-    """Progress bar of a study; yields the function to call with trials and time [s] done."""
-    bar = Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TaskProgressColumn(),
-        TextColumn("{task.fields[state]}"),
-        TimeRemainingColumn(),
-        console=err,
-    )
-    task = bar.add_task(name, total=simulated, state="")
-    begin, before = time.perf_counter(), None
+def walking_bar(duration: float) -> Iterator[Callable[[float, Any], None]]:
+    """Bar of a walk; yields what to call with the time [s] and the controller."""
+    with bar("walking") as show:
 
-    def update(done: int, reached: float) -> None:
-        nonlocal before
-        before = reached if before is None else before  # what an earlier run had finished
-        speed = (reached - before) / (time.perf_counter() - begin)
-        state = f"{done} of {trials} trials  {speed:.0f} simulated s/s"
-        bar.update(task, completed=reached, state=state)
+        def update(t: float, controller: Any) -> None:
+            def state(speed: float) -> str:
+                phases = " ".join(f"{angle:5.2f}" for angle in controller.phi)
+                return f"{t:5.1f} s  {speed:4.1f}x real time  phi {phases} rad"
 
-    with bar:
+            show(t, duration, state)
+
         yield update
-
-
-def show_summary(summary: Summary, folder: str) -> None:
-    """Print the key figures and where the files are."""
-    table = Table(show_header=False, box=None, padding=(0, 2))
-    table.add_column(no_wrap=True)
-    table.add_column(no_wrap=True)
-    table.add_column()
-    for label, text, meaning in rows(summary):
-        table.add_row(label, text, f"[dim]{meaning}[/dim]")
-    out.print(table, highlight=False)
-    out.print(f"report: {folder}/report.html", highlight=False, soft_wrap=True)

@@ -1,44 +1,47 @@
 """``apnc info``: what an FMU is and what it connects to."""
+# ruff: noqa: PLC0415  # what takes long to import waits until it is needed
 
 from __future__ import annotations
 
 import zipfile
 from pathlib import Path
+from typing import Annotated
 
-import fmpy
-from rich.table import Table
+import typer
 
-import apnc_core
-from apnc.cli.console import out
-from apnc.loop.fmu_controller import check_fmu
+from apnc.cli.console import show_table, status
 
 
-def show_info(path: Path) -> None:
-    """Print the FMU's identity, platforms, inputs and outputs.
+def info(
+    fmu: Annotated[Path | None, typer.Argument(help="An FMU; the built one if omitted.")] = None,
+) -> None:
+    """Show version, platforms and interface of an FMU for co-simulation, FMI 2.0 or 3.0."""
+    with status("reading"):
+        import fmpy
 
-    Raises:
-        FmuError: no FMU.
-    """
-    description = check_fmu(path)
+        from apnc.loop.fmu_controller import describe_fmu
+        from apnc_core import __version__
+        from build_fmu.build import host_fmu
+
+        path = fmu or host_fmu()
+        model = describe_fmu(path)
     with zipfile.ZipFile(path) as archive:
-        platforms = sorted(
-            {n.split("/")[1] for n in archive.namelist() if n.startswith("binaries/")}
-        )
-    facts = Table(show_header=False, box=None, padding=(0, 2))
-    for label, value in (
-        ("apnc", apnc_core.__version__),
-        ("FMU", str(path)),
-        ("model", f"{description.modelName}, FMI {description.fmiVersion} co-simulation"),
-        ("guid", description.guid),
-        ("platforms", ", ".join(platforms) or "sources only"),
-        ("fmpy", fmpy.__version__),
-    ):
-        facts.add_row(label, value)
-    out.print(facts, highlight=False)
-    table = Table(box=None, padding=(0, 2))
-    for heading in ("name", "causality", "start", "unit", "description"):
-        table.add_column(heading, no_wrap=heading == "name")
-    for v in description.modelVariables:
-        if v.causality in ("input", "output", "parameter"):
-            table.add_row(v.name, v.causality, v.start or "", v.unit or "", v.description or "")
-    out.print(table, highlight=False, markup=False)
+        folders = {n.split("/")[1] for n in archive.namelist() if n.startswith("binaries/")}
+    show_table(
+        [
+            ("apnc", __version__),
+            ("FMU", str(path)),
+            ("model", f"{model.modelName}, FMI {model.fmiVersion} co-simulation"),
+            ("guid", model.guid),
+            ("platforms", ", ".join(sorted(folders)) or "sources only"),
+            ("fmpy", fmpy.__version__),
+        ]
+    )
+    shown = [v for v in model.modelVariables if v.causality in ("input", "output", "parameter")]
+    show_table(
+        [
+            (v.name + "".join(f"[{n}]" for n in v.shape), v.causality, v.start or "", v.unit or "", v.description or "")
+            for v in shown
+        ],
+        "name", "causality", "start", "unit", "description",
+    )  # fmt: skip

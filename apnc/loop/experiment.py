@@ -20,7 +20,7 @@ from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import Causality, Value
 from apnc_core.settings import checked
 from apnc_core.variables import row, rows
-from exudyn_models.conditions import Conditions, named_conditions
+from exudyn_models.conditions import CONDITIONS, Conditions, named_conditions
 from exudyn_models.ground import Plane, Surface
 from exudyn_models.physics.options import PlantOptions
 from exudyn_models.robot import RobotDescription, load_robot
@@ -102,7 +102,7 @@ class Experiment:
         if not (self.rate > 0.0 and limits.min <= 1.0 / self.rate <= limits.max):
             allowed = f"{1.0 / limits.max:g} ... {1.0 / limits.min:g} Hz"
             raise ValueError(f"rate = {self.rate} Hz is not in {allowed}")
-        if not (math.isfinite(self.duration) and self.duration > 0.0):
+        if not (math.isfinite(self.duration * self.rate) and self.duration > 0.0):
             raise ValueError(f"duration = {self.duration} s is not a positive time")
         if self.ticks < 1:
             raise ValueError(
@@ -210,9 +210,10 @@ class Experiment:
                 words += ["--ground", value.text()]
             elif name == "robot":
                 words += ["--robot", value if isinstance(value, str) else value.name]
+            elif name == "conditions":
+                words += ["--condition", steps_text(value, _name_of)]
             else:
-                option = {"conditions": "condition"}.get(name, name)
-                words += [f"--{option}", steps_text(value)]
+                words += [f"--{name}", steps_text(value)]
         return shlex.join(words)
 
 
@@ -221,6 +222,11 @@ def conditions_of(value: str | Conditions) -> Conditions:
     if isinstance(value, Conditions):
         return value
     return named_conditions(value)
+
+
+def _name_of(value: str | Conditions) -> str:
+    named = (name for name, each in CONDITIONS.items() if value in (name, each))
+    return next(named, str(value))
 
 
 @lru_cache

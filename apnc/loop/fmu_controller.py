@@ -274,6 +274,20 @@ def check_fmu(path: Path | str) -> Any:
     Raises:
         FmuError: there is no such file, or it is no such FMU.
     """
+    description = describe_fmu(path)
+    if description.fmiVersion != "2.0":
+        raise FmuError(
+            f"{path}: FMI {description.fmiVersion}; a walk takes FMI 2.0 (apnc build --fmi 2)"
+        )
+    return description
+
+
+def describe_fmu(path: Path | str) -> Any:
+    """Model description of a co-simulation FMU of any version of the standard.
+
+    Raises:
+        FmuError: there is no such file, or it is no such FMU.
+    """
     if not Path(path).is_file():
         raise FmuError(f"{path}: no such file")
     if not zipfile.is_zipfile(path):
@@ -283,6 +297,6 @@ def check_fmu(path: Path | str) -> Any:
     except Exception as error:
         first = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise FmuError(f"{path}: not a valid FMU: {first}") from error
-    if description.fmiVersion != "2.0" or description.coSimulation is None:
-        raise FmuError(f"{path}: not an FMI 2.0 co-simulation FMU")
+    if description.coSimulation is None:
+        raise FmuError(f"{path}: not a co-simulation FMU")
     return description

@@ -61,7 +61,7 @@ class Gait:
         return {"stored": True, "phi_stored": self.phi}
 
 
-def gait_of_run(folder: Path) -> Gait:
+def gait_of_run(folder: Path | str) -> Gait:
     """The gait stored at the end of a recorded run.
 
     Args:
@@ -70,7 +70,7 @@ def gait_of_run(folder: Path) -> Gait:
     Raises:
         GaitError: no run, or a run whose couplings were off at the end.
     """
-    path = folder / "record.csv"
+    path = Path(folder) / "record.csv"
     try:
         with path.open(encoding="utf-8") as file:
             last = _last_row(file)
@@ -95,7 +95,7 @@ def _checksum(content: dict[str, Any]) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def write_gait(gait: Gait, path: Path) -> None:
+def write_gait(gait: Gait, path: Path | str) -> None:
     """Write a gait file.
 
     Raises:
@@ -105,17 +105,17 @@ def write_gait(gait: Gait, path: Path) -> None:
     # what the checksum sees is what a reader of the file sees: lists, not tuples
     content = json.loads(json.dumps(content))
     text = json.dumps({**content, "sha256": _checksum(content)}, indent=2, allow_nan=False)
-    path.write_text(text + "\n", encoding="utf-8")
+    Path(path).write_text(text + "\n", encoding="utf-8")
 
 
-def read_gait(path: Path) -> Gait:
+def read_gait(path: Path | str) -> Gait:
     """Read a gait file.
 
     Raises:
         GaitError: no file, a damaged or a foreign one.
     """
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
         raise GaitError(f"{path} cannot be read: {error.strerror}") from None
     except ValueError:

@@ -67,8 +67,14 @@ def parse_steps(text: str, convert: Callable[[str], Value]) -> Over[Value]:
         raise ValueError(f"'{text}' is not time:value,time:value,... ({error})") from None
 
 
-def steps_text(value: Over[Any]) -> str:
-    """The text that :func:`parse_steps` takes."""
+def _text(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value).removesuffix(".0") if isinstance(value, float) else str(value)
+
+
+def steps_text(value: Over[Any], text: Callable[[Any], str] = _text) -> str:
+    """The text that :func:`parse_steps` takes, exact; ``text`` words one value."""
     if not isinstance(value, tuple | list):
-        return str(value)
-    return ",".join(f"{start:g}:{entry}" for start, entry in steps_of(value))
+        return text(value)
+    return ",".join(f"{_text(start)}:{text(entry)}" for start, entry in steps_of(value))

@@ -1,0 +1,33 @@
+"""The commands of ``apnc``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from apnc.cli import bench, build, info, memory, study, walk
+from apnc_core import __version__
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # it would eat the [s] and [m] of the help texts
+    help="Adaptive neural control for legged robots: build the FMU, walk a robot under it.",
+)
+app.command("walk")(walk.walk)
+app.command("build")(build.build)
+app.command("info")(info.info)
+app.add_typer(memory.app, name="memory")
+app.add_typer(study.app, name="study")
+app.command("bench")(bench.bench)
+
+
+@app.callback(invoke_without_command=True)
+def _version(
+    version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False,
+) -> None:
+    if version:
+        typer.echo(__version__)
+        raise typer.Exit

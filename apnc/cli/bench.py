@@ -1,0 +1,27 @@
+"""``apnc bench``: what a tick of the controller costs."""
+# ruff: noqa: PLC0415  # what takes long to import waits until it is needed
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from apnc.cli.console import say, status, writable_file
+
+
+def bench(
+    output: Annotated[Path, typer.Option(help="JSON file to write.")] = Path("apnc-bench.json"),
+) -> None:
+    """Measure what a tick costs, against its arithmetic and against PythonFMU."""
+    writable_file(output)
+    with status("measuring") as shown:
+        from apnc.bench.run import run_bench
+        from apnc.bench.table import show_bench
+
+        result = run_bench(lambda what: shown.update(f"measuring: {what}"))
+    output.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+    show_bench(result)
+    say(f"all figures: {output}")

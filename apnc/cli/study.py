@@ -1,0 +1,83 @@
+"""``apnc study``: a command for every study of the registry."""
+# ruff: noqa: PLC0415  # what takes seconds to import waits until it is needed
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, Final
+
+import typer
+from typer import Option
+
+import apnc
+from apnc.cli.console import bar, say, writable
+from apnc.cli.interrupt import STOP, Interrupted
+from apnc.studies.registry import ALL, METHODS, STUDIES
+
+TRIAL_FAILED: Final = 1
+"""Exit code if a trial ended with an error."""
+
+app = typer.Typer(
+    no_args_is_help=True, rich_markup_mode=None, help="Run a study: its table, figures and claims."
+)
+
+
+def _command(name: str, axes: tuple[str, ...]) -> Callable[..., None]:
+    def command(**options: Any) -> None:
+        _run(name, axes, **options)
+
+    def option(name: str, kind: Any, default: Any, about: str) -> inspect.Parameter:
+        form = Annotated[kind, Option(f"--{name}", help=about)]
+        return inspect.Parameter(
+            name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=form
+        )
+
+    parameters = [
+        option("trials", int, 20, "Seeds per cell of the grid."),
+        option("duration", float | None, None, "Simulated time of a trial [s]."),
+        option("workers", int | None, None, "Processes; all cores if omitted."),
+        option("scheduler", str | None, None, "Address of a Dask scheduler, tcp://..."),
+        option("output", Path, Path(f"apnc-study-{name}"), "Folder for the results."),
+        option("resume", bool, False, "Finish an interrupted study."),
+        option("series", bool, False, "Keep the record of every trial."),
+        *(option(axis, str | None, None, "Some of all, separated by commas.") for axis in axes),
+    ]
+    command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    return command
+
+
+def _run(
+    name: str, axes: tuple[str, ...], *, output: Path, workers: int | None, **options: Any
+) -> None:
+    import joblib
+
+    texts = {axis: options.pop(axis) for axis in axes}
+    chosen = {k: [v.strip() for v in text.split(",")] for k, text in texts.items() if text}
+    with bar(f"study {name}") as show:
+
+        def progress(done: int, trials: int, simulated: float, total: float) -> None:
+            show(simulated, total, lambda speed: f"{done} of {trials} trials  {speed:.0f} s/s")
+
+        rows = apnc.run_study(
+            name,
+            methods=chosen.pop(METHODS, None),
+            chosen=chosen,
+            workers=workers if workers is not None else joblib.cpu_count(),
+            output=writable(output),
+            progress=progress,
+            stop=STOP,
+            **options,
+        )
+    failed = sum(row["end"] == "error" for row in rows)
+    say(f"{len(rows)} trials, {failed} ended with an error; report: {output}/report.html")
+    if STOP.asked:
+        raise Interrupted("interrupted; --resume finishes it")
+    raise typer.Exit(TRIAL_FAILED if failed else 0)
+
+
+for _each in STUDIES.values():
+    _about = f"{_each.title} ({_each.place or 'not in the paper'})"
+    app.command(_each.name, help=_about, short_help=_about)(_command(_each.name, _each.options))
+app.command(ALL, help="All of the paper's studies in one report")(_command(ALL, (METHODS,)))

@@ -1,0 +1,167 @@
+"""``apnc walk``: an experiment from the options of the command line, its run and its folder."""
+# ruff: noqa: PLC0415  # what takes seconds to import waits until it is needed
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Final
+
+import typer
+from typer import Option
+
+import apnc
+from apnc.cli.console import say, show_table, status, walking_bar, writable, writable_file
+from apnc.cli.interrupt import NOTHING, STOP, Interrupted
+from apnc.loop.steps import parse_steps
+from apnc_core.enumerations import Method
+from exudyn_models.conditions import CONDITIONS
+
+if TYPE_CHECKING:
+    from apnc.loop.experiment import Experiment
+    from apnc.loop.record import Record
+
+ENDED_EARLY: Final = 1
+"""Exit code of a run that fell or diverged."""
+
+_PLAIN: Final = ("robot", "duration", "seed", "method", "preset", "rate", "step", "contact", "fmu")
+_METHODS: Final = ", ".join(Method.__members__)
+_NAMED: Final = ", ".join(CONDITIONS)
+
+Text = str | None
+Number = float | None
+File = Path | None
+
+
+def walk(
+    context: typer.Context,
+    robot: Annotated[Text, Option(help="Name or TOML file; lilibot if omitted.")] = None,
+    mi: Annotated[Text, Option(help="Modulatory input *; 0.08 if omitted.")] = None,
+    duration: Annotated[Number, Option(help="Simulated time [s]; 45.0 if omitted.")] = None,
+    seed: Annotated[int | None, Option(help="Of noise and asymmetry; 0 if omitted.")] = None,
+    method: Annotated[Text, Option(help=f"{_METHODS}; apnc if omitted.")] = None,
+    preset: Annotated[Text, Option(help="robot, lilibot, paper; robot if omitted.")] = None,
+    setting: Annotated[
+        list[str] | None, Option("--set", metavar="NAME=VALUE", help="Of a parameter; repeatable.")
+    ] = None,
+    params: Annotated[File, Option(help="summary.json, SSV, JSON or TOML file.")] = None,
+    memory: Annotated[File, Option(help="Learned gait to start with.")] = None,
+    ground: Annotated[Text, Option(help="KIND:NAME=VALUE,... as in docs/using.md.")] = None,
+    roughness: Annotated[Number, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
+    slope: Annotated[Number, Option(help="Rise of the ground along x [deg].")] = None,
+    condition: Annotated[Text, Option(help=f"{_NAMED} *; C1 if omitted.")] = None,
+    turn: Annotated[Text, Option(help="-1 right ... 1 left *; 0.0 if omitted.")] = None,
+    reset: Annotated[Text, Option(help="Hold at the start: true, false *.")] = None,
+    rate: Annotated[Number, Option(help="Update rate [Hz]; 60.0 if omitted.")] = None,
+    step: Annotated[Number, Option(help="Longest integration step [s].")] = None,
+    contact: Annotated[Text, Option(help="compiled, exudyn; compiled if omitted.")] = None,
+    fmu: Annotated[Text, Option(help="This FMU instead of the built one.")] = None,
+    output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),
+    json_file: Annotated[File, Option("--json", help="Write the summary here as well.")] = None,
+) -> None:
+    """Walk a robot under the FMU; write summary.json, record.csv and report.html.
+
+    An option marked * takes a value, or steps over time: --mi 0:0.15,25:0.4 changes at 25 s.
+    Exit code 0 if the walk came to its planned end, 1 if the robot fell or its motion diverged.
+    """
+    with status("starting"):
+        experiment = experiment_of(context.params)
+        folder = writable(output)
+        json_path = writable_file(json_file) if json_file else None
+    with walking_bar(experiment.duration) as progress:
+        record = apnc.simulate(experiment, progress=progress, stop=STOP)
+    if len(record) == 0:
+        raise Interrupted(NOTHING)
+    _write(record, folder, json_path)
+    _say_end(record, folder)
+
+
+def experiment_of(options: Mapping[str, Any]) -> Experiment:
+    """The experiment that the options of ``apnc walk`` mean; ``None`` leaves the default.
+
+    Raises:
+        ValueError: a value that is not understood or not allowed.
+    """
+    given = {name: options[name] for name in _PLAIN if options[name] is not None}
+    given |= _over("mi", options["mi"], float) | _over("turn", options["turn"], float)
+    given |= _over("reset", options["reset"], _true_or_false)
+    given |= _over("conditions", options["condition"], str)
+    given |= _ground(options["ground"], options["roughness"], options["slope"], options["seed"])
+    settings: dict[str, Any] = {}
+    if options["params"]:
+        from apnc.loop.parameters import read_parameters
+
+        settings = read_parameters(options["params"])
+        if "Ts" in settings:
+            given.setdefault("rate", 1.0 / settings.pop("Ts"))
+        if "method" in settings:
+            given.setdefault("method", Method(settings.pop("method")).name)
+        present = apnc.Experiment(**given).parameters()
+        settings = {name: value for name, value in settings.items() if value != present[name]}
+    if options["memory"]:
+        legs = tuple(leg.name for leg in apnc.Experiment(**given).description.legs)
+        settings |= apnc.read_gait(options["memory"]).settings(legs)
+    if options["setting"]:
+        from apnc_core.settings import parse
+
+        settings |= dict(map(parse, options["setting"]))
+    return apnc.Experiment(**given, settings=settings)
+
+
+def _over(name: str, text: str | None, convert: Callable[[str], Any]) -> dict[str, Any]:
+    try:
+        return {} if text is None else {name: parse_steps(text, convert)}
+    except ValueError:
+        raise ValueError(
+            f"{name} = '{text}' is not a value, or 0:value,seconds:value,..."
+        ) from None
+
+
+def _true_or_false(text: str) -> bool:
+    if text not in ("true", "false"):
+        raise ValueError(text)
+    return text == "true"
+
+
+def _ground(text: Text, roughness: Number, slope: Number, seed: int | None) -> dict[str, Any]:
+    if (text, roughness, slope) == (None, None, None):
+        return {}
+    from exudyn_models.ground import Ground, Plane, surface
+
+    if roughness is not None:
+        if text is not None:
+            raise ValueError(f"--ground {text} and --roughness {roughness} both say the ground")
+        ground = Ground(roughness=roughness, seed=seed or 0)
+    else:
+        ground = surface(text) if text is not None else Plane()
+    if slope is not None:
+        if ground.slope:
+            raise ValueError(f"--ground {text} and --slope {slope} both say the slope")
+        ground = replace(ground, slope=math.radians(slope))
+    return {"ground": ground}
+
+
+def _write(record: Record, folder: Path, json_path: Path | None) -> None:
+    apnc.write_report(record, folder)
+    if json_path:
+        from apnc.report.folder import write_together
+
+        summary = (folder / "summary.json").read_bytes()
+        write_together(json_path.parent, {json_path.name: lambda path: path.write_bytes(summary)})
+
+
+def _say_end(record: Record, folder: Path) -> None:
+    """Print the key figures, where the files are and how it ended."""
+    from apnc.report.wording import rows
+
+    show_table(rows(apnc.summarise(record)))
+    say(f"report: {folder}/report.html")
+    why = f": {record.message}" if record.message else ""
+    words = f"{record.end} at {record.ended_at:.2f} s{why}; what was recorded is in {folder}"
+    if record.end is apnc.End.interrupted:
+        raise Interrupted(words)
+    if not record.complete:
+        say(words, error=True)
+        raise typer.Exit(ENDED_EARLY)

@@ -1,0 +1,40 @@
+"""Parameters of the controller from a file."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from apnc_core.settings import checked
+from build_fmu.ssv import read_ssv
+
+
+def read_parameters(path: Path) -> dict[str, Any]:
+    """Parameters by name, checked.
+
+    Args:
+        path: SSV file; TOML or JSON with values by name; or the ``summary.json`` of a walk, of
+            which ``robot_weight`` counts only if it was set: else it belongs to the robot.
+
+    Raises:
+        ValueError: no such file, none of these, or a parameter that does not exist or fit.
+    """
+    if path.suffix == ".ssv":
+        return dict(read_ssv(path))
+    try:
+        text = path.read_text(encoding="utf-8")
+        content = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text)
+        if not isinstance(content, dict):
+            raise ValueError("not a table of NAME: VALUE")
+        values = content
+        if isinstance(content.get("parameters"), dict):
+            values = dict(content["parameters"])
+            if "robot_weight" not in content.get("experiment", {}).get("settings", {}):
+                values.pop("robot_weight", None)
+        return {name: checked(name, value) for name, value in values.items()}
+    except OSError as error:
+        raise ValueError(f"parameter file {path} cannot be read: {error.strerror}") from None
+    except ValueError as error:
+        raise ValueError(f"parameter file {path}: {error}") from None

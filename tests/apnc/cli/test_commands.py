@@ -1,0 +1,255 @@
+"""The command line as a person uses it."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+if os.name == "nt":
+    pytest.skip("uses a terminal and limits of the system", allow_module_level=True)
+
+import resource
+
+from terminal import APNC, apnc
+
+from apnc import Gait, read_gait, write_gait
+from apnc.cli import main as command_line
+from apnc.studies.registry import STUDIES
+from exudyn_models.robot import ROBOTS
+
+HEAVY = {"exudyn", "exudyn_models.ground", "fmpy", "joblib", "numba", "numpy", "plotly", "scipy"}
+
+
+def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
+    """Exit code and what was printed, of a command run here: faster than in its own process."""
+    with pytest.raises(SystemExit) as end:
+        command_line.main(list(words))
+    assert isinstance(end.value.code, int)
+    return end.value.code, *capsys.readouterr()
+
+
+@pytest.mark.parametrize("words", [[], ["walk"], ["build"], ["study"], ["study", "mi"], ["memory"]])
+def test_help_imports_nothing_heavy_and_keeps_its_brackets(words: list[str]) -> None:
+    command = [sys.executable, "-X", "importtime", "-m", "apnc", *words, "--help"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    imported = {line.split("|")[-1].strip() for line in done.stderr.splitlines()}
+    assert "apnc.cli.walk" in imported
+    assert imported & HEAVY == set()
+    if words == ["walk"]:
+        for unit in ("[s]", "[deg]", "[Hz]"):
+            assert unit in done.stdout
+
+
+def test_no_command_shows_the_help() -> None:
+    done = subprocess.run(APNC, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "Usage: apnc" in done.stdout + done.stderr
+    assert "apnc: " not in done.stderr
+
+
+def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = run(capsys, "study", "--help")
+    assert code == 0
+    for entry in STUDIES.values():
+        (line,) = [x for x in out.splitlines() if x.split()[:1] == [entry.name]]
+        assert entry.title in line and entry.place in line
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["walk", "--method", "cow"], "method 'cow' is not one of apnc, apc, tegotae, phase_reset"),
+        (["walk", "--duration", "-3"], "duration = -3.0 s is not a positive time"),
+        (["walk", "--duration", "nan"], "duration = nan s is not a positive time"),
+        (["walk", "--duration", "1e308"], "duration = 1e+308 s is not a positive time"),
+        (["walk", "--duration", "0.001"], "duration = 0.001 s is not one tick"),
+        (["walk", "--rate", "0"], "rate = 0.0 Hz is not in 1 ... 10000 Hz"),
+        (["walk", "--mi", "7"], "mi = 7.0 is not in 0 ... 1"),
+        (["walk", "--mi", "fast"], "mi = 'fast' is not a value"),
+        (["walk", "--seed", "-1"], "seed = -1 is not a whole number, 0 or more"),
+        (["walk", "--seed", "1.5"], "'--seed'"),
+        (["walk", "--preset", "cow"], "preset 'cow' is not one of robot, lilibot, paper"),
+        (["walk", "--set", "cow=1"], "parameter 'cow' is not one of Ts, robot_weight, F_max"),
+        (["walk", "--set", "xi=moo"], "xi = 'moo'; allowed: a number"),
+        (["walk", "--set", "xi=7"], "xi = 7; allowed: a number from 0 to 1"),
+        (["walk", "--set", "xi=true"], "xi = True; allowed: a number"),
+        (["walk", "--set", "Ts=1"], "Ts = 1.0 is not set here, but by rate"),
+        (["walk", "--set", "N=3.7"], "N = 3.7; allowed: a whole number"),
+        (["walk", "--set", "kappa_rule=never"], "kappa_rule = 'never' is not one of armed, printed"),
+        (["walk", "--robot", "cow"], "robot 'cow'"),
+        (["walk", "--condition", "C9"], "conditions 'C9' are not one of"),
+        (["walk", "--fmu", "no.fmu"], "no.fmu: no such file"),
+        (["walk", "--fmu", "text.fmu"], "text.fmu: not an FMU"),
+        (["walk", "--memory", "text.fmu"], "text.fmu is not a gait file"),
+        (["walk", "--output", "text.fmu/x"], "output folder text.fmu/x cannot be written"),
+        (["walk", "--json", "."], "file . is a folder"),
+        (["info", "text.fmu"], "text.fmu: not an FMU"),
+        (["memory", "save", "nowhere", "gait.json"], "record.csv cannot be read"),
+        (["memory", "save", "nowhere", "x", "--format", "xml"], "format 'xml' is not one of"),
+        (["build", "--legs", "1"], "legs = 1 is not in 2 ... 64"),
+        (["build", "--platform", "vax"], "platform 'vax' is not one of"),
+        (["build", "--set", "N=3.7"], "N = 3.7"),
+        (["moo"], "moo"),
+        (["walk", "--moo"], "--moo"),
+        (["study", "mi", "--trials", "0"], "trials = 0 is not at least 1"),
+        (["study", "mi", "--methods", "cow"], "cow"),
+    ],
+)  # fmt: skip
+def test_bad_use_is_one_line_and_code_2(
+    arguments: list[str],
+    words: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("text.fmu").write_text("no zip")
+    code, _, err = run(capsys, *arguments)
+    assert code == 2
+    assert words in err
+    assert len(err.strip().splitlines()) == 1
+    assert err.startswith("apnc: ")
+
+
+def test_walk_writes_what_it_promises(tmp_path: Path) -> None:
+    done = apnc("walk", "--duration", "3", "--json", "out/copy.json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "report: apnc-walk/report.html" in done.stdout
+    folder = tmp_path / "apnc-walk"
+    assert {path.name for path in folder.iterdir()} == {"summary.json", "record.csv", "report.html"}
+    assert (tmp_path / "out/copy.json").read_text() == (folder / "summary.json").read_text()
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["command"] == "apnc walk --duration 3"
+    assert summary["duration_s"] == 3.0
+    with (folder / "record.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 180
+    assert float(rows[60]["time"]) == pytest.approx(1.0)
+    assert {"RF.o1", "phi12", "kappa", "position.x", "LH.foot_force.z"} <= set(rows[0])
+
+
+def test_same_seed_same_record_other_seed_other_record(tmp_path: Path) -> None:
+    for name, seed in (("a", "1"), ("b", "1"), ("c", "2")):
+        apnc("walk", "--duration", "2", "--seed", seed, "--output", name, cwd=tmp_path)
+    a, b, c = ((tmp_path / name / "record.csv").read_bytes() for name in "abc")
+    assert a == b
+    assert a != c
+
+
+@pytest.mark.parametrize(
+    ("env", "encoding"),
+    [
+        ({"PYTHONIOENCODING": "cp1252"}, "cp1252"),
+        ({"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}, "ascii"),
+    ],
+)
+def test_a_console_without_greek_letters_shows_the_rest(
+    env: dict[str, str], encoding: str, tmp_path: Path
+) -> None:
+    done = apnc("walk", "--duration", "1", cwd=tmp_path, encoding=encoding, env=env)
+    assert done.returncode == 0, done.stderr
+    assert "?12" in done.stdout  # phi
+    assert "report: apnc-walk/report.html" in done.stdout
+
+
+def test_a_fall_is_said_and_has_its_own_code(tmp_path: Path) -> None:
+    words = ("--duration", "9", "--slope", "60")
+    done = apnc("walk", *words, cwd=tmp_path)
+    assert done.returncode == 1, done.stderr
+    summary = json.loads((tmp_path / "apnc-walk" / "summary.json").read_text())
+    assert summary["end"] == "fell" and summary["duration_s"] < 9.0
+    said = f"fell at {summary['duration_s']:.2f} s; what was recorded is in apnc-walk"
+    assert said in done.stderr
+    assert "fell" in done.stdout
+
+
+def test_a_run_that_diverges_is_not_interrupted_and_shows_no_huge_numbers(tmp_path: Path) -> None:
+    # an impact law so stiff that the step cannot follow
+    robot = (ROBOTS / "lilibot.toml").read_text()
+    (tmp_path / "stiff.toml").write_text(robot.replace("= 7860.0", "= 1e300"))
+    done = apnc("walk", "--robot", "stiff.toml", "--duration", "9", cwd=tmp_path)
+    assert done.returncode == 1, done.stderr
+    assert "diverged at" in done.stderr and "interrupted" not in done.stderr + done.stdout
+    assert "e+" not in done.stdout
+    assert json.loads((tmp_path / "apnc-walk" / "summary.json").read_text())["end"] == "diverged"
+
+
+def test_a_full_disk_names_the_file_and_leaves_the_older_run(tmp_path: Path) -> None:
+    assert apnc("walk", "--duration", "1", cwd=tmp_path).returncode == 0
+    folder = tmp_path / "apnc-walk"
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+
+    def little_room() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (600_000, 600_000))
+
+    done = subprocess.run(
+        [*APNC, "walk", "--duration", "25"],
+        cwd=tmp_path, capture_output=True, text=True, check=False, preexec_fn=little_room,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "apnc-walk/record.csv" in done.stderr.splitlines()[-1]
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize("fmi", ["2", "3"])
+def test_info_shows_the_interface_of_what_build_made(
+    fmi: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "200")
+    assert run(capsys, "build", "--platform", "host", "--fmi", fmi)[0] == 0
+    code, out, err = run(capsys, "info", "Apnc.fmu")
+    assert code == 0, err
+    assert f"FMI {fmi}.0 co-simulation" in out
+    assert ("leg[4].theta_knee" if fmi == "2" else "theta_knee[4]") in out
+
+
+def test_a_walk_refuses_fmi_3_in_a_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run(capsys, "build", "--platform", "host", "--fmi", "3")
+    code, _, err = run(capsys, "walk", "--fmu", "Apnc.fmu", "--duration", "1")
+    assert code == 2 and "Apnc.fmu: FMI 3.0; a walk takes FMI 2.0" in err
+
+
+def test_a_built_fmu_starts_with_what_was_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import fmpy  # noqa: PLC0415
+
+    monkeypatch.chdir(tmp_path)
+    write_gait(Gait(("RF", "RH", "LF", "LH"), (3.1, 3.2, 0.1)), Path("gait.json"))
+    Path("own.toml").write_text("xi = 0.07\nrobot_weight = 30.0")
+    code, _, err = run(
+        capsys, "build", "--platform", "host", "--memory", "gait.json", "--params", "own.toml",
+        "--set", "robot_weight=33", "--method", "tegotae", "--enumerations", "integer",
+    )  # fmt: skip
+    assert code == 0, err
+    start = {v.name: v.start for v in fmpy.read_model_description("Apnc.fmu").modelVariables}
+    found = [float(start[name]) for name in ("xi", "robot_weight", "method", "phi_stored[2]")]
+    assert found == [0.07, 33.0, 3.0, 3.2]
+    assert start["stored"] == "true"
+
+
+def test_a_gait_is_kept_shown_and_walked_with(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    words = ("--set", "stored=true", "--set", "phi_stored=[3.1,3.2,0.1]", "--duration", "1")
+    assert run(capsys, "walk", *words, "--output", "first")[0] == 0
+    assert run(capsys, "memory", "save", "first", "gait.json")[0] == 0
+    assert read_gait("gait.json").phi == (3.1, 3.2, 0.1)
+    assert "LH 0.10 rad" in run(capsys, "memory", "show", "gait.json")[1]
+    assert run(capsys, "memory", "save", "first", "gait.ssv", "--format", "ssv")[0] == 0
+    for option, file in (("--memory", "gait.json"), ("--params", "gait.ssv")):
+        assert run(capsys, "walk", option, file, "--duration", "1")[0] == 0
+        again = json.loads(Path("apnc-walk/summary.json").read_text())
+        assert again["parameters"]["phi_stored"] == [3.1, 3.2, 0.1]
+        assert again["parameters"]["stored"] is True

@@ -1,0 +1,58 @@
+"""Ctrl-C: at once while there is nothing to lose, at the next tick while there is."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+from apnc.cli.interrupt import Interrupted, StopRequest
+
+if os.name == "nt":
+    pytest.skip("sends SIGINT to a process", allow_module_level=True)
+
+from terminal import APNC, interrupted
+
+
+def test_ctrl_c_in_an_endless_walk_keeps_what_was_recorded(tmp_path: Path) -> None:
+    code, shown = interrupted(
+        *APNC, "walk", "--duration", "1e9", at="x real time", cwd=tmp_path
+    )  # fmt: skip
+    assert code == 130, shown
+    assert "Traceback" not in shown
+    assert "what was recorded is in apnc-walk" in shown
+    summary = json.loads((tmp_path / "apnc-walk" / "summary.json").read_text())
+    assert summary["end"] == "interrupted"
+    assert 0.0 < summary["duration_s"] < 1e6
+    assert (tmp_path / "apnc-walk" / "report.html").is_file()
+
+
+@pytest.mark.parametrize("at", ["apnc.cli.interrupt", "numpy", "fmpy", "exudyn_models.ground"])
+def test_ctrl_c_during_the_imports_is_no_traceback(at: str, tmp_path: Path) -> None:
+    command = (sys.executable, "-X", "importtime", "-m", "apnc", "walk", "--duration", "9")
+    code, shown = interrupted(*command, at=f" {at}\r\n", cwd=tmp_path)
+    said = [line for line in shown.splitlines() if not line.startswith("import time:")]
+    assert code == 130, said
+    assert "interrupted, nothing recorded" in shown
+    assert not any("Traceback" in line or "reinstall" in line for line in said)
+    assert not (tmp_path / "apnc-walk" / "summary.json").exists()
+
+
+def test_before_a_loop_asks_ctrl_c_raises_afterwards_the_second_does() -> None:
+    stop = StopRequest()
+    with stop.listening():
+        with pytest.raises(Interrupted):
+            signal.raise_signal(signal.SIGINT)
+        assert stop()  # an import that swallows the error changes nothing
+    stop = StopRequest()
+    with stop.listening():
+        assert not stop()
+        signal.raise_signal(signal.SIGINT)
+        assert stop()
+        with pytest.raises(Interrupted):
+            signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

@@ -1,0 +1,55 @@
+"""``apnc`` in a process of its own, with a terminal or a pipe at its standard error."""
+
+from __future__ import annotations
+
+import os
+import pty
+import select
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+APNC = [sys.executable, "-m", "apnc"]
+
+
+def apnc(
+    *arguments: str, cwd: Path, encoding: str = "utf-8", env: dict[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """A finished command; ``env`` is added to the environment."""
+    return subprocess.run(
+        [*APNC, *arguments],
+        cwd=cwd,
+        capture_output=True,
+        encoding=encoding,
+        env=os.environ | (env or {}),
+        check=False,
+        timeout=600,
+    )
+
+
+def interrupted(*command: str, at: str, cwd: Path, env: dict[str, str] | None = None) -> tuple[int, str]:
+    """Exit code and standard error of a command that gets Ctrl-C once ``at`` stands there."""
+    terminal, theirs = pty.openpty()
+    process = subprocess.Popen(
+        [*command], cwd=cwd, stderr=theirs, stdout=subprocess.DEVNULL, env=os.environ | (env or {})
+    )
+    os.close(theirs)
+    shown, sent, end = "", False, time.monotonic() + 300.0
+    while time.monotonic() < end:
+        ready, _, _ = select.select([terminal], [], [], 1.0)
+        try:
+            shown += os.read(terminal, 65536).decode(errors="replace") if ready else ""
+        except OSError:  # the process has closed it
+            break
+        if not sent and at in shown:
+            sent = True
+            process.send_signal(signal.SIGINT)
+        if not ready and process.poll() is not None:
+            break
+    else:
+        process.kill()
+    os.close(terminal)
+    assert sent, f"{at!r} was never shown: {shown}"
+    return process.wait(timeout=60), shown
