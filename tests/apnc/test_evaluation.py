@@ -15,8 +15,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from browser import console_lines, look, needs_browser
-
 from apnc.studies.evaluation.claims import CLAIMS, FEW, findings
 from apnc.studies.evaluation.grids import METHODS, STUDIES, trials_of
 from apnc.studies.evaluation.report import write_evaluation
@@ -25,6 +23,8 @@ from apnc.studies.evaluation.statistics import Comparison, compare, holm, median
 from apnc.studies.evaluation.store import Store, write_table
 from apnc.studies.evaluation.trial import Trial, run_trial
 from apnc.studies.evaluation.workers import DaskWorkers, LocalWorkers, workers
+from browser import console_lines, look, needs_browser
+
 from build_fmu.build import host_fmu
 
 SHORT = [Trial("mi", method, mi, 0, duration=2.0) for mi in (0.08, 0.16) for method in METHODS]

@@ -8,17 +8,17 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from jobs import JOBS, square
-
-from apnc import metrics
 from apnc.loop.walk import WalkOptions, walk
 from apnc.studies.formation_picture import formation_svg
 from apnc.studies.formation_study import run_formation
 from apnc.studies.formation_table import formation_markdown, success_interval
 from apnc.studies.memory_study import run_memory
 from apnc.studies.scenarios import Outcome, Timeline, judge, run_scenario
-from apnc.studies.search import KNOBS, formation_cost
 from apnc.studies.trial_table import Execution, Row, run_trials
+from jobs import JOBS, square
+
+from apnc import metrics
+from apnc.studies.search import KNOBS, formation_cost
 from apnc.summary import summarise
 
 # --- the preset forms its gait -----------------------------------------------------------------

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
 from apnc.studies.sensitivity_study import CHANGES, run_sensitivity, sensitivity_markdown
+
 from exudyn_models.robot.file import load_robot
 
 ROBOT = load_robot("lilibot")

@@ -7,9 +7,9 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from apnc.studies.contact_study import chatter, run
 
 from apnc.studies import contact_study
-from apnc.studies.contact_study import chatter, run
 
 
 def test_chatter_is_the_share_of_loaded_steps_that_turn_round() -> None:

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from apnc.loop.memory import Gait, GaitError, gait_of_run, read_gait, write_gait
 from apnc.loop.walk import WalkOptions, save, walk
+
 from build_fmu.build import host_fmu
 
 GAIT = Gait(("RF", "RH", "LF", "LH"), (3.37, 3.2, 0.18))
