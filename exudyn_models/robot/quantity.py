@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final, get_type_hints
@@ -78,15 +79,17 @@ FLAT: Final = "flat"
 """Annotates a field that holds a part whose keys lie, in a file, beside those of the whole."""
 
 
-@cache
-def rules(part: Any) -> dict[str, Rule]:
-    """Rules of the fields of a part that have one, by name."""
+def _rules(part: Any) -> dict[str, Rule]:
     return {
         name: note
         for name, hint in get_type_hints(part, include_extras=True).items()
         for note in getattr(hint, "__metadata__", ())
         if isinstance(note, Rule)
     }
+
+
+rules: Final[Callable[[Any], dict[str, Rule]]] = cache(_rules)
+"""Rules of the fields of a part that have one, by name."""
 
 
 class Checked:

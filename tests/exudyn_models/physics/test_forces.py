@@ -109,11 +109,11 @@ def by_hand(obstacles: np.ndarray, place: np.ndarray) -> np.ndarray:
     """The same from all obstacles, one by one: stiffness times overlap, away from the centre."""
     contact = ROBOT.contact
     force = np.array([0.0, 0.0, max(0.0, contact.foot_radius - place[2]) * contact.stiffness])
-    for x, y, z, radius in obstacles:
-        away = place - [x, y, z]
-        away[:2] -= TILE * np.round(away[:2] / TILE)
-        overlap = radius + contact.foot_radius - np.linalg.norm(away)
-        force += max(0.0, overlap) * contact.stiffness * away / np.linalg.norm(away)
+    away = place - obstacles[:, :3]
+    away[:, :2] -= TILE * np.round(away[:, :2] / TILE)
+    distance = np.linalg.norm(away, axis=1)
+    overlap = np.maximum(0.0, obstacles[:, 3] + contact.foot_radius - distance)
+    force += (overlap * contact.stiffness / distance) @ away
     return force
 
 
