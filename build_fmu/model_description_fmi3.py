@@ -89,7 +89,7 @@ def build_description(c_files: list[str]) -> bytes:
 
 
 def _add_types(parent: etree._Element) -> None:
-    """No ``description`` on a type: FMPy up to 0.3.22 takes it for an unknown argument."""
+    """No ``description`` on a type: FMPy 0.3.23 and older refuse it."""
     for unit, (name, _, quantity) in REAL_TYPES.items():
         real = etree.SubElement(parent, "Float64Type", name=name, unit=unit)
         if quantity:

@@ -86,6 +86,14 @@ def test_every_declared_unit_and_type_exists() -> None:
         assert typed.get("declaredType") is None or typed.get("declaredType") in types
 
 
+def test_types_of_fmi_3_have_no_description() -> None:
+    """FMPy 0.3.23 and older refuse a file that has one."""
+    root = description(fmu_bytes(BuildOptions(platforms=(), fmi=3)))
+    types = root.findall("TypeDefinitions/*")
+    assert len(types) == 8
+    assert [t.get("name") for t in types if t.get("description")] == []
+
+
 def test_shipped_sources_compile_on_their_own(tmp_path: Path) -> None:
     with zipfile.ZipFile(io.BytesIO(fmu_bytes(SOURCES_ONLY))) as archive:
         archive.extractall(tmp_path)

@@ -180,8 +180,44 @@ def test_reference_results_are_reproduced(legs: int, naming: str, tmp_path: Path
     assert max(differences.values()) <= TOLERANCE, differences
 
 
+def test_reference_results_see_the_couplings_switch_on_and_work_under_load(tmp_path: Path) -> None:
+    for legs, naming in VARIANTS:
+        content = files(built(legs, naming))
+        (tmp_path / "results.csv").write_bytes(content[f"{FOLDER}/results.csv"])
+        (tmp_path / "stimuli.csv").write_bytes(content[f"{FOLDER}/stimuli.csv"])
+        results = fmpy.read_csv(str(tmp_path / "results.csv"))
+        kappa = results["kappa"]
+        assert kappa[0] == 0 and kappa[-1] == 1 and np.sum(np.diff(kappa) != 0) == 1
+        load = fmpy.read_csv(str(tmp_path / "stimuli.csv"))["leg1_grf" if naming == "flat"
+                                                            else "leg[1].grf"]  # fmt: skip
+        assert load[kappa == 1].max() > 10
+        g1 = results["leg1_g1" if naming == "flat" else "leg[1].g1"]
+        assert np.abs(g1[kappa == 0]).max() == 0 and np.abs(g1[kappa == 1]).max() > 100 * TOLERANCE
+
+
+def test_reference_follows_the_own_start_values_of_a_build(tmp_path: Path) -> None:
+    settings = {"Ts": 0.01, "xi": 0.05, "robot_weight": 30.0}
+    fmu = cached_fmu(BuildOptions(platforms=(host_platform(),), settings=settings))
+    differences = reproduced(fmu, tmp_path)
+    assert max(differences.values()) <= TOLERANCE, differences
+    stored = BuildOptions(platforms=(host_platform(),), memory=(3.0, 3.1, 0.1))
+    assert max(reproduced(cached_fmu(stored), tmp_path).values()) <= TOLERANCE
+
+
 @pytest.mark.parametrize(
-    ("name", "value"), [("w11", 1.41), ("B_f", 0.05), ("alpha", 0.8), ("a2", 0.12), ("Ts", 0.01)]
+    ("name", "value"),
+    [
+        ("w11", 1.41),
+        ("B_f", 0.05),
+        ("alpha", 0.8),
+        ("a2", 0.12),
+        ("Ts", 0.01),
+        # seen only once the couplings are on
+        ("xi", 0.03),
+        ("feedback_kept", 0.3),
+        ("coupling_sign", 2),
+        ("phi_frozen", False),
+    ],
 )
 def test_reference_shows_a_wrong_parameter(
     fmu4: Path, tmp_path: Path, name: str, value: float
