@@ -14,6 +14,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from apnc_core.enumerations import ENUMERATIONS
 from apnc_core.schema import MAX_LEGS, VR_STRIDE, VR_TIME, Causality, Shape, Type, Variable
 from apnc_core.variables import N_WINDOW_MAX, TABLE, rows
+from build_fmu import modelica
 
 ROOT: Final = Path(__file__).resolve().parent.parent
 
@@ -22,6 +23,7 @@ TARGETS: Final = {
     "apnc_variables.h.j2": "fmu_src/core/apnc_variables.h",
     "apnc_variables.c.j2": "fmu_src/core/apnc_variables.c",
     "variables.md.j2": "docs/variables.md",
+    **modelica.TARGETS,
 }
 
 _C_GROUP: Final = {
@@ -164,6 +166,7 @@ def _environment() -> Environment:
         "md_range": _md_range,
         "md_type": _md_type,
         "md_unit": _md_unit,
+        **modelica.FILTERS,
     }
     return env
 
@@ -194,9 +197,11 @@ def render() -> dict[str, str]:
         "window_max": N_WINDOW_MAX,
         "vr_stride": VR_STRIDE,
         "vr_time": VR_TIME,
+        **modelica.context(),
     }
     env = _environment()
-    return {path: env.get_template(name).render(context) for name, path in TARGETS.items()}
+    files = {path: env.get_template(name).render(context) for name, path in TARGETS.items()}
+    return files | {modelica.AMALGAMATION: modelica.amalgamation()}
 
 
 def outdated(root: Path = ROOT) -> list[str]:
