@@ -63,14 +63,34 @@ block Controller "The adaptive neural controller of a legged robot"
     annotation (Placement(transformation(extent={{63,-32},{91,-4}})));
 equation
   for i in 1:n loop
-    leg[i].MI = commands.MI_used;
-    leg[i].turn = commands.turn_used;
-    leg[i].hold = commands.hold;
-    leg[i].kappa = coupling.kappa;
+    connect(commands.MI_used, leg[i].MI)
+      annotation (Line(points={{-66.3,5.6},{-58,5.6},{-58,42},{-49.8,42}}, color={0,0,127}));
+    connect(commands.turn_used, leg[i].turn)
+      annotation (Line(points={{-66.3,1.9},{-56,1.9},{-56,38},{-49.8,38}}, color={0,0,127}));
+    connect(commands.hold, leg[i].hold)
+      annotation (Line(points={{-66.3,-1.9},{-33,-1.9},{-33,19.2}}, color={255,0,255}));
+    connect(coupling.kappa, leg[i].kappa)
+      annotation (Line(points={{92,-26},{94,-26},{94,-84},{-54,-84},{-54,34},{-49.8,34}}, color={0,0,127}));
+    connect(grf[i], leg[i].grf)
+      annotation (Line(points={{-110,80},{-55.8,80},{-55.8,45.38},{-49.8,45.38}}, color={0,0,127}));
+    connect(coupling.g1[i], leg[i].g1)
+      annotation (Line(points={{92.4,-9.6},{94.4,-9.6},{94.4,-86},{-52.8,-86},{-52.8,30.4},{-49.8,30.4}}, color={0,0,127}));
+    connect(coupling.g2[i], leg[i].g2)
+      annotation (Line(points={{92.4,-15.2},{94.4,-15.2},{94.4,-92},{-52.8,-92},{-52.8,26.62},{-49.8,26.62}}, color={0,0,127}));
   end for;
-  acquisition.hold = commands.hold;
-  estimation.hold = commands.hold;
-  coupling.hold = commands.hold;
+  acquisition.o1 = leg.o1;
+  acquisition.o2 = leg.o2;
+  coupling.o1 = leg.o1;
+  coupling.o2 = leg.o2;
+  theta_hip = leg.theta_hip;
+  theta_knee = leg.theta_knee;
+  o1 = leg.o1;
+  o2 = leg.o2;
+  gamma = leg.gamma;
+  grf_expected = leg.grf_expected;
+  f1 = leg.f1;
+  f2 = leg.f2;
+  fault = leg.fault;
   K_f = leg.K_f;
   K_s = leg.K_s;
   connect(MI, commands.MI)
@@ -79,60 +99,34 @@ equation
     annotation (Line(points={{-110,-26},{-102.8,-26},{-102.8,0},{-98.8,0}}, color={0,0,127}));
   connect(reset, commands.reset)
     annotation (Line(points={{-110,-80},{-103.8,-80},{-103.8,-7.42},{-98.8,-7.42}}, color={255,0,255}));
-  connect(grf, leg.grf)
-    annotation (Line(points={{-110,80},{-55.8,80},{-55.8,45.38},{-49.8,45.38}}, color={0,0,127}));
-  connect(leg.o1, acquisition.o1)
-    annotation (Line(points={{-18.3,42.16},{-23.8,42.16},{-23.8,-48.4},{-16.8,-48.4}}, color={0,0,127}));
-  connect(leg.o2, acquisition.o2)
-    annotation (Line(points={{-18.3,40.06},{-24.8,40.06},{-24.8,-59.6},{-16.8,-59.6}}, color={0,0,127}));
+  connect(commands.hold, acquisition.hold)
+    annotation (Line(points={{-66.6,-2.8},{-63.6,-2.8},{-63.6,-73.8},{0,-73.8},{0,-70.8}}, color={255,0,255}));
+  connect(commands.hold, estimation.hold)
+    annotation (Line(points={{-66.6,-2.8},{-63.6,-2.8},{-63.6,-73.8},{38,-73.8},{38,-70.8}}, color={255,0,255}));
+  connect(commands.hold, coupling.hold)
+    annotation (Line(points={{-66.6,-2.8},{-63.6,-2.8},{-63.6,-37.8},{77,-37.8},{77,-34.8}}, color={255,0,255}));
   connect(acquisition.angle, estimation.angle)
-    annotation (Line(points={{15.4,-54},{18.2,-54},{18.2,-54},{21.2,-54}}, color={0,0,127}));
-  connect(leg.o1, coupling.o1)
-    annotation (Line(points={{-18.3,42.16},{56.2,42.16},{56.2,-9.04},{60.2,-9.04}}, color={0,0,127}));
-  connect(leg.o2, coupling.o2)
-    annotation (Line(points={{-18.3,40.06},{55.2,40.06},{55.2,-13.52},{60.2,-13.52}}, color={0,0,127}));
+    annotation (Line(points={{15.4,-54},{15.2,-54},{15.2,-54},{21.2,-54}}, color={0,0,127}));
   connect(acquisition.angle, coupling.angle)
-    annotation (Line(points={{15.4,-54},{54.2,-54},{54.2,-18},{60.2,-18}}, color={0,0,127}));
+    annotation (Line(points={{15.4,-54},{57.2,-54},{57.2,-18},{60.2,-18}}, color={0,0,127}));
   connect(estimation.phi, coupling.phi)
-    annotation (Line(points={{53.4,-46.58},{53.2,-46.58},{53.2,-22.48},{60.2,-22.48}}, color={0,0,127}));
+    annotation (Line(points={{53.4,-46.58},{56.2,-46.58},{56.2,-22.48},{60.2,-22.48}}, color={0,0,127}));
   connect(estimation.settled, coupling.settled)
-    annotation (Line(points={{53.4,-61.42},{52.2,-61.42},{52.2,-26.96},{60.2,-26.96}}, color={255,0,255}));
-  connect(coupling.g1, leg.g1)
-    annotation (Line(points={{92.4,-9.6},{94.4,-9.6},{94.4,-92},{-52.8,-92},{-52.8,30.4},{-49.8,30.4}}, color={0,0,127}));
-  connect(coupling.g2, leg.g2)
-    annotation (Line(points={{92.4,-15.2},{94.4,-15.2},{94.4,-90},{-52.8,-90},{-52.8,26.62},{-49.8,26.62}}, color={0,0,127}));
-  connect(leg.theta_hip, theta_hip)
-    annotation (Line(points={{-18.3,46.22},{100,46.22},{100,94},{105,94}}, color={0,0,127}));
-  connect(leg.theta_knee, theta_knee)
-    annotation (Line(points={{-18.3,44.12},{99,44.12},{99,82},{105,82}}, color={0,0,127}));
-  connect(leg.o1, o1)
-    annotation (Line(points={{-18.3,42.16},{98,42.16},{98,69},{105,69}}, color={0,0,127}));
-  connect(leg.o2, o2)
-    annotation (Line(points={{-18.3,40.06},{97,40.06},{97,57},{105,57}}, color={0,0,127}));
-  connect(leg.gamma, gamma)
-    annotation (Line(points={{-18.3,38.1},{102,38.1},{102,44},{105,44}}, color={0,0,127}));
-  connect(leg.grf_expected, grf_expected)
-    annotation (Line(points={{-18.3,36},{101,36},{101,32},{105,32}}, color={0,0,127}));
-  connect(leg.f1, f1)
-    annotation (Line(points={{-18.3,33.9},{100,33.9},{100,19},{105,19}}, color={0,0,127}));
-  connect(leg.f2, f2)
-    annotation (Line(points={{-18.3,31.94},{99,31.94},{99,7},{105,7}}, color={0,0,127}));
-  connect(leg.fault, fault)
-    annotation (Line(points={{-18.3,29.84},{98,29.84},{98,-31},{105,-31}}, color={255,0,255}));
+    annotation (Line(points={{53.4,-61.42},{55.2,-61.42},{55.2,-26.96},{60.2,-26.96}}, color={255,0,255}));
   connect(coupling.g1, g1)
-    annotation (Line(points={{92.4,-9.6},{97,-9.6},{97,-6},{105,-6}}, color={0,0,127}));
+    annotation (Line(points={{92.4,-9.6},{100,-9.6},{100,-6},{105,-6}}, color={0,0,127}));
   connect(coupling.g2, g2)
-    annotation (Line(points={{92.4,-15.2},{102,-15.2},{102,-18},{105,-18}}, color={0,0,127}));
+    annotation (Line(points={{92.4,-15.2},{99,-15.2},{99,-18},{105,-18}}, color={0,0,127}));
   connect(estimation.phi, phi)
-    annotation (Line(points={{53.4,-46.58},{101,-46.58},{101,-43},{105,-43}}, color={0,0,127}));
+    annotation (Line(points={{53.4,-46.58},{98,-46.58},{98,-43},{105,-43}}, color={0,0,127}));
   connect(coupling.phi_memory, phi_memory)
-    annotation (Line(points={{92.4,-20.8},{100,-20.8},{100,-56},{105,-56}}, color={0,0,127}));
+    annotation (Line(points={{92.4,-20.8},{97,-20.8},{97,-56},{105,-56}}, color={0,0,127}));
   connect(estimation.d, d)
-    annotation (Line(points={{53.4,-54},{99,-54},{99,-68},{105,-68}}, color={0,0,127}));
+    annotation (Line(points={{53.4,-54},{102,-54},{102,-68},{105,-68}}, color={0,0,127}));
   connect(coupling.kappa, kappa)
-    annotation (Line(points={{92.4,-26.4},{98,-26.4},{98,-81},{105,-81}}, color={0,0,127}));
+    annotation (Line(points={{92.4,-26.4},{101,-26.4},{101,-81},{105,-81}}, color={0,0,127}));
   connect(commands.tick, tick)
-    annotation (Line(points={{-66.6,-8.4},{97,-8.4},{97,-94},{105,-94}}, color={255,127,0}));
+    annotation (Line(points={{-66.6,-8.4},{100,-8.4},{100,-94},{105,-94}}, color={255,127,0}));
   annotation (Documentation(info="<html>
 <p>The FMU of the project in Modelica, with its names, units and defaults; no C is needed. Feed the
 loads of the feet [N], legs 1 RF, 2 RH, 3 LF, 4 LH (right ones first, n legs), and add the joint

@@ -100,11 +100,16 @@ block Leg "Leg: the circuits of one leg"
     gamma_tegotae=gamma_tegotae) "feedback of the load"
     annotation (Placement(transformation(extent={{140,0},{180,40}})));
 equation
-  touchDown.hold = hold;
-  oscillator.hold = hold;
-  forwardModel.hold = hold;
-  learner.hold = hold;
-  feedback.hold = hold;
+  connect(hold, touchDown.hold)
+    annotation (Line(points={{-210,-120},{-90,-120},{-90,-84}}, color={255,0,255}));
+  connect(hold, oscillator.hold)
+    annotation (Line(points={{-210,-120},{-60,-120},{-60,36}}, color={255,0,255}));
+  connect(hold, forwardModel.hold)
+    annotation (Line(points={{-210,-120},{60,-120},{60,-4}}, color={255,0,255}));
+  connect(hold, learner.hold)
+    annotation (Line(points={{-210,-120},{110,-120},{110,-64}}, color={255,0,255}));
+  connect(hold, feedback.hold)
+    annotation (Line(points={{-210,-120},{160,-120},{160,-4}}, color={255,0,255}));
   connect(grf, footLoad.grf)
     annotation (Line(points={{-210,-60},{-180,-60},{-180,-60},{-174,-60}}, color={0,0,127}));
   connect(footLoad.F, touchDown.F)
