@@ -106,8 +106,7 @@ def mo_attributes(v: Variable) -> str:
     if v.display_unit:
         found.append(f'displayUnit="{v.display_unit}"')
     if v.min is not None and v.max is not None:
-        number: Callable[[float], str] = lambda x: mo_value(v, x)  # noqa: E731
-        found += [f"min={number(v.min)}", f"max={number(v.max)}"]
+        found += [f"min={mo_value(v, v.min)}", f"max={mo_value(v, v.max)}"]
     if v.causality is Causality.input and v.start is not None:
         found.append(f"start={mo_value(v, v.start)}")
     each = "" if v.shape is Shape.scalar else "each "
@@ -189,14 +188,6 @@ def amalgamation() -> str:
     )
 
 
-def _paper(n: str) -> list[str]:
-    return [
-        f"{v.name}={mo_value(v, v.paper)}"
-        for v in rows(Causality.parameter)
-        if v.paper is not None and v.name != n
-    ]
-
-
 FILTERS: Final[dict[str, Callable[..., str]]] = {
     "mo_type": mo_type,
     "mo_size": mo_size,
@@ -216,7 +207,11 @@ def context() -> dict[str, Any]:
     return {
         "parameter_groups": groups(),
         "quantities": {name: unit for unit, name in QUANTITIES.items()},
-        "paper_modifications": _paper("Ts"),
+        "paper_modifications": [
+            f"{v.name}={mo_value(v, v.paper)}"
+            for v in rows(Causality.parameter)
+            if v.paper is not None
+        ],
         "constants": [
             ("MOST_WEIGHTS", load.MOST_WEIGHTS, "a load above so many times the weight is none"),
             ("FORGOTTEN", dual_rate_learner.FORGOTTEN, "gains below this count as zero"),

@@ -8,18 +8,20 @@ block Commands "Commands: inputs within their ranges, and when the circuits are 
     annotation (Placement(transformation(extent={{-140,-20},{-100,20}})));
   Interfaces.BooleanInput reset "true: hold the circuits"
     annotation (Placement(transformation(extent={{-140,-73},{-100,-33}})));
-  Interfaces.RealOutput MI_used(unit="1", start=Constants.MI_START) "MI within its range"
+  Interfaces.RealOutput MI_used(unit="1", start=Constants.MI_START, fixed=true) "MI within its range"
     annotation (Placement(transformation(extent={{100,50},{120,70}})));
-  Interfaces.RealOutput turn_used(unit="1", start=Constants.TURN_START) "turn within its range"
+  Interfaces.RealOutput turn_used(unit="1", start=Constants.TURN_START, fixed=true) "turn within its range"
     annotation (Placement(transformation(extent={{100,10},{120,30}})));
   Interfaces.BooleanOutput hold "true: the circuits stay at their start"
     annotation (Placement(transformation(extent={{100,-30},{120,-10}})));
-  Interfaces.IntegerOutput tick(start=0) "number of ticks run"
+  Interfaces.IntegerOutput tick(start=0, fixed=true) "number of ticks run"
     annotation (Placement(transformation(extent={{100,-70},{120,-50}})));
 equation
   when sample(startTime, Ts) then
-    MI_used = if abs(MI) <= Constants.LARGEST then min(max(MI, Constants.MI_MIN), Constants.MI_MAX) else pre(MI_used);
-    turn_used = if abs(turn) <= Constants.LARGEST then min(max(turn, Constants.TURN_MIN), Constants.TURN_MAX) else pre(turn_used);
+    MI_used = if abs(MI) <= Constants.LARGEST then min(max(MI, Constants.MI_MIN), Constants.MI_MAX)
+      else pre(MI_used);
+    turn_used = if abs(turn) <= Constants.LARGEST then min(max(turn, Constants.TURN_MIN), Constants.TURN_MAX)
+      else pre(turn_used);
     hold = reset or MI_zero_resets and MI_used <= Constants.MI_MIN;
     tick = pre(tick) + 1;
   end when;

@@ -41,11 +41,13 @@ protected
       gamma_tegotae,
       grf_reset)
     "circuits and memory of the C core";
+  Integer k(start=0, fixed=true) "number of the tick";
 equation
   when sample(startTime, Ts) then
-    tick = pre(tick) + 1;
+    k = pre(k) + 1;
+    tick = k;
     (theta_hip, theta_knee, o1, o2, gamma, grf_expected, f1, f2, g1, g2, fault, phi, phi_memory, d, kappa, K_f, K_s) =
-      External.step(state, tick, grf, MI, turn, reset, n);
+      External.step(state, k, grf, MI, turn, reset, n);
   end when;
   annotation (Documentation(info="<html>
 <p>The same inputs, outputs and parameters as

@@ -17,6 +17,7 @@ equation
     Icon(graphics={Text(extent={{-96,-30},{96,30}}, textString="Foot load", textColor={24,42,66})}),
     Documentation(info="<html>
 <p>F = min(grf / (robot_weight / 2), F_max). A load that is not finite, negative or above 1000
-weights counts as zero and raises fault.</p><p>Source: Sun, Dai &amp; Manoonpong 2023, text below Eq. 5.</p>
+weights counts as zero and raises fault.</p>
+<p>Source: Sun, Dai &amp; Manoonpong 2023, text below Eq. 5.</p>
 </html>"));
 end FootLoad;

@@ -22,6 +22,7 @@ equation
     Documentation(info="<html>
 <p>F<sup>e</sup>(n+1) = alpha (rho G(n) + (1 - rho) F<sup>e</sup>(n)) with G = 1 while the hip command
 does not rise, else 0 (Eq. 10-11). The text speaks of the knee, the equation takes theta<sub>1</sub>,
-the hip.</p><p>Source: Sun, Dai &amp; Manoonpong 2023, Eq. 10-11.</p>
+the hip.</p>
+<p>Source: Sun, Dai &amp; Manoonpong 2023, Eq. 10-11.</p>
 </html>"));
 end ForwardModel;

@@ -24,9 +24,11 @@ block Leg "Leg: the circuits of one leg"
     annotation (Placement(transformation(extent={{-220,30},{-200,50}}), iconTransformation(extent={{-140,-87},{-100,-47}})));
   Interfaces.BooleanInput hold "true: the circuits stay at their start"
     annotation (Placement(transformation(extent={{-220,-130},{-200,-110}}), iconTransformation(extent={{-20,-20},{20,20}}, rotation=90, origin={0,-120})));
-  Interfaces.RealOutput theta_hip(quantity="Angle", unit="rad", displayUnit="deg") "command of the hip joint"
+  Interfaces.RealOutput theta_hip(quantity="Angle", unit="rad", displayUnit="deg")
+    "command of the hip joint"
     annotation (Placement(transformation(extent={{200,110},{220,130}}), iconTransformation(extent={{100,68},{110,78}})));
-  Interfaces.RealOutput theta_knee(quantity="Angle", unit="rad", displayUnit="deg") "command of the knee joint"
+  Interfaces.RealOutput theta_knee(quantity="Angle", unit="rad", displayUnit="deg")
+    "command of the knee joint"
     annotation (Placement(transformation(extent={{200,86},{220,106}}), iconTransformation(extent={{100,53},{110,63}})));
   Interfaces.RealOutput o1(unit="1") "output of neuron N1"
     annotation (Placement(transformation(extent={{200,62},{220,82}}), iconTransformation(extent={{100,39},{110,49}})));

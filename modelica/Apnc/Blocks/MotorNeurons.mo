@@ -9,9 +9,11 @@ block MotorNeurons "Motor neurons: from oscillator outputs to joint commands"
     annotation (Placement(transformation(extent={{-140,-20},{-100,20}})));
   Interfaces.RealInput turn(unit="1") "steering, positive turns left"
     annotation (Placement(transformation(extent={{-140,-73},{-100,-33}})));
-  Interfaces.RealOutput theta_hip(quantity="Angle", unit="rad", displayUnit="deg") "command of the hip joint"
+  Interfaces.RealOutput theta_hip(quantity="Angle", unit="rad", displayUnit="deg")
+    "command of the hip joint"
     annotation (Placement(transformation(extent={{100,30},{120,50}})));
-  Interfaces.RealOutput theta_knee(quantity="Angle", unit="rad", displayUnit="deg") "command of the knee joint"
+  Interfaces.RealOutput theta_knee(quantity="Angle", unit="rad", displayUnit="deg")
+    "command of the knee joint"
     annotation (Placement(transformation(extent={{100,-50},{120,-30}})));
 protected
   discrete Real scale(unit="1") "factor on the slopes";
@@ -26,6 +28,7 @@ equation
     Documentation(info="<html>
 <p>theta<sub>i</sub> = s a<sub>i</sub> o<sub>i</sub> + b<sub>i</sub> (Eq. 4), relative to the
 reference pose of the robot; s = 1 + turn_gain turn on the right and 1 - turn_gain turn on the left
-(section 3.3: steeper slopes on the right turn the robot to the left).</p><p>Source: Sun, Dai &amp; Manoonpong 2023, Eq. 4.</p>
+(section 3.3: steeper slopes on the right turn the robot to the left).</p>
+<p>Source: Sun, Dai &amp; Manoonpong 2023, Eq. 4.</p>
 </html>"));
 end MotorNeurons;

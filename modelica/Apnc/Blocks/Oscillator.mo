@@ -25,8 +25,12 @@ equation
   when sample(startTime, Ts) then
     o1 = if hold then o1_start else pre(o1_next);
     o2 = if hold then o2_start else pre(o2_next);
-    o1_next = if hold then o1_start elseif touchDown then tanh(Constants.A1_AT_TOUCH_DOWN) else tanh(w11 * o1 + (w12_0 + MI) * o2 + bias - f1 + g1);
-    o2_next = if hold then o2_start elseif touchDown then tanh(Constants.A2_AT_TOUCH_DOWN) else tanh(w11 * o2 - (w12_0 + MI) * o1 + bias - f2 + g2);
+    o1_next = if hold then o1_start
+      elseif touchDown then tanh(Constants.A1_AT_TOUCH_DOWN)
+      else tanh(w11 * o1 + (w12_0 + MI) * o2 + bias - f1 + g1);
+    o2_next = if hold then o2_start
+      elseif touchDown then tanh(Constants.A2_AT_TOUCH_DOWN)
+      else tanh(w11 * o2 - (w12_0 + MI) * o1 + bias - f2 + g2);
   end when;
   annotation (
     Icon(graphics={Text(extent={{-96,-30},{96,30}}, textString="Oscillator", textColor={24,42,66})}),
@@ -36,6 +40,7 @@ f<sub>1</sub>(n) + g<sub>1</sub>(n),<br>
 a<sub>2</sub>(n+1) = w<sub>11</sub> o<sub>2</sub>(n) - w<sub>12</sub> o<sub>1</sub>(n) -
 f<sub>2</sub>(n) + g<sub>2</sub>(n),<br>
 o<sub>i</sub>(n) = tanh a<sub>i</sub>(n), w<sub>12</sub> = w12_0 + MI (Eq. 1-3, 18).</p>
-<p>The cycle is not a circle and turns clockwise in the (o<sub>1</sub>, o<sub>2</sub>) plane.</p><p>Source: Sun, Dai &amp; Manoonpong 2023, Eq. 1-3.</p>
+<p>The cycle is not a circle and turns clockwise in the (o<sub>1</sub>, o<sub>2</sub>) plane.</p>
+<p>Source: Sun, Dai &amp; Manoonpong 2023, Eq. 1-3.</p>
 </html>"));
 end Oscillator;

@@ -21,7 +21,10 @@ block SensoryFeedback "Sensory feedback: how the foot load acts on the oscillato
     annotation (Placement(transformation(extent={{100,-63},{120,-43}})));
 equation
   when sample(startTime, Ts) then
-    gamma = if hold or method == Types.Method.phase_reset then 0.0 elseif method == Types.Method.tegotae then gamma_tegotae elseif kappa > 0.0 then feedback_kept * learned else learned;
+    gamma = if hold or method == Types.Method.phase_reset then 0.0
+      elseif method == Types.Method.tegotae then gamma_tegotae
+      elseif kappa > 0.0 then feedback_kept * learned
+      else learned;
     f1 = if hold then 0.0 else gamma * F * cos(o1);
     f2 = if hold then 0.0 else gamma * F * sin(o2);
   end when;
@@ -30,6 +33,7 @@ equation
     Documentation(info="<html>
 <p>f<sub>1</sub> = gamma F cos o<sub>1</sub>, f<sub>2</sub> = gamma F sin o<sub>2</sub> (Eq. 5).
 The gain is the learner's; while the neural couplings are on the share feedback_kept of it; fixed for
-the Tegotae baseline (Owaki et al. 2012); zero for the phase-resetting baseline.</p><p>Source: Sun, Dai &amp; Manoonpong 2023, Eq. 5.</p>
+the Tegotae baseline (Owaki et al. 2012); zero for the phase-resetting baseline.</p>
+<p>Source: Sun, Dai &amp; Manoonpong 2023, Eq. 5.</p>
 </html>"));
 end SensoryFeedback;

@@ -11,7 +11,8 @@ protected
   discrete Real F_before(start=Constants.NEVER, fixed=true) "load at the tick before";
 equation
   when sample(startTime, Ts) then
-    touchDown = method == Types.Method.phase_reset and pre(F_before) < 0.5 * grf_reset and F >= 0.5 * grf_reset;
+    touchDown = method == Types.Method.phase_reset
+      and pre(F_before) < 0.5 * grf_reset and F >= 0.5 * grf_reset;
     F_before = if hold then Constants.NEVER else F;
   end when;
   annotation (

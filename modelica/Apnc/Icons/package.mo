@@ -1,6 +1,5 @@
 within Apnc;
 package Icons "Icons"
-  extends Package;
 
   partial package Package "Icon of a package"
     annotation (Icon(coordinateSystem(extent={{-100,-100},{100,100}}), graphics={
