@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
-from modelica_runs import Run, run
+import pytest
+from modelica_runs import ROOT, Run, run
 
 TROT = np.array([np.pi, np.pi, 0.0])
 
@@ -57,3 +60,13 @@ def test_steering_scales_the_sides_against_each_other() -> None:
 
     assert np.allclose(swing(left) / swing(left)[::-1], [3, 3, 1 / 3, 1 / 3], rtol=0.05)
     assert np.allclose(swing(right) / swing(right)[::-1], [1 / 3, 1 / 3, 3, 3], rtol=0.05)
+
+
+PAGE = (ROOT / "docs" / "modelica.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("code", re.findall(r"^```modelica\n(.*?)^```", PAGE, re.M | re.S))
+def test_the_model_in_the_documentation_finds_its_gait(code: str) -> None:
+    done = run(code.replace("MyRobot", "Test"), 15.0)
+    assert done.at_ticks("kappa")[-1] == 1.0
+    assert errors(done)[-1] < 0.6
