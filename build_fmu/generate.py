@@ -15,6 +15,7 @@ from apnc_core.enumerations import ENUMERATIONS
 from apnc_core.row_numbers import ROW_NUMBERS
 from apnc_core.schema import MAX_LEGS, VR_STRIDE, VR_TIME, Causality, Shape, Type, Variable
 from apnc_core.variables import N_WINDOW_MAX, TABLE, rows
+from build_fmu import modelica
 
 ROOT: Final = Path(__file__).resolve().parent.parent
 
@@ -24,6 +25,7 @@ TARGETS: Final = {
     "apnc_variables.c.j2": "fmu_src/core/apnc_variables.c",
     "variables.md.j2": "docs/variables.md",
     "row_numbers.py.j2": "apnc_core/row_numbers.py",
+    **modelica.TARGETS,
 }
 
 _C_GROUP: Final = {
@@ -177,6 +179,7 @@ def _environment() -> Environment:
         "md_type": _md_type,
         "md_unit": _md_unit,
         "md_reference": lambda v: VR_STRIDE * row_numbers()[v.name],
+        **modelica.FILTERS,
     }
     return env
 
@@ -209,9 +212,11 @@ def render() -> dict[str, str]:
         "window_max": N_WINDOW_MAX,
         "vr_stride": VR_STRIDE,
         "vr_time": VR_TIME,
+        **modelica.context(),
     }
     env = _environment()
-    return {path: env.get_template(name).render(context) for name, path in TARGETS.items()}
+    files = {path: env.get_template(name).render(context) for name, path in TARGETS.items()}
+    return files | {modelica.AMALGAMATION: modelica.amalgamation()}
 
 
 def outdated(root: Path = ROOT) -> list[str]:

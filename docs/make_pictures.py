@@ -33,22 +33,28 @@ window.addEventListener("load", async () => {
 </script>"""
 
 
-def main(report: Path, folder: Path) -> None:
-    """Write ``evaluation-<figure>.svg`` files into ``folder``."""
+def pictures(page: str) -> dict[str, str]:
+    """Every plotly figure of an HTML page as SVG text, by the id of its element."""
     chromium = shutil.which("chromium") or shutil.which("chromium-browser")
     if chromium is None:
         sys.exit("no chromium binary found")
     with tempfile.TemporaryDirectory() as temporary:
-        page = Path(temporary) / "page.html"
-        text = report.read_text(encoding="utf-8")
-        page.write_text(text.replace("</body>", COLLECT + "</body>"), encoding="utf-8")
-        command = [chromium, *FLAGS, f"--user-data-dir={temporary}/profile", page.as_uri()]
+        file = Path(temporary) / "page.html"
+        file.write_text(page.replace("</body>", COLLECT + "</body>"), encoding="utf-8")
+        command = [chromium, *FLAGS, f"--user-data-dir={temporary}/profile", file.as_uri()]
         done = subprocess.run(command, capture_output=True, text=True, check=True)
     found = re.search(r'<pre id="pictures">(.*?)</pre>', done.stdout, re.DOTALL)
     if found is None:
-        sys.exit("the report did not finish drawing")
+        sys.exit("the page did not finish drawing")
+    drawn: dict[str, str] = json.loads(html.unescape(found[1]))
+    return drawn
+
+
+def main(report: Path, folder: Path) -> None:
+    """Write ``evaluation-<figure>.svg`` files into ``folder``."""
+    drawn = pictures(report.read_text(encoding="utf-8"))
     folder.mkdir(parents=True, exist_ok=True)
-    for name, picture in json.loads(html.unescape(found[1])).items():
+    for name, picture in drawn.items():
         (folder / f"evaluation-{name}.svg").write_text(picture, encoding="utf-8")
 
 

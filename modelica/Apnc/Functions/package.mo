@@ -1,0 +1,4 @@
+within Apnc;
+package Functions "Functions that several blocks need"
+  extends Icons.Package;
+end Functions;
