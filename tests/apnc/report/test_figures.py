@@ -205,10 +205,11 @@ def test_stability_and_switch_have_their_own_axes() -> None:
 
 def test_speed_is_along_the_heading_and_its_mean_along_the_path() -> None:
     record = synthetic_record(10.0, speed=0.12, yaw=0.7)
-    figure = drawn("speed", record)
+    summary = replace(summarise(record), path_speed_m_per_s=0.146, speed_m_per_s=0.004)
+    figure = figures.speed(Run(record, summary))
     for trace in figure.data:
         assert y(trace) == pytest.approx(0.12, abs=1e-6)
-    assert figure.layout["shapes"][0]["y0"] == pytest.approx(0.12)
+    assert figure.layout["shapes"][0]["y0"] == 0.146
     assert axis_of(figure, figure.data[0]) == "speed [m/s]"
     backwards = synthetic_record(10.0, speed=-0.12, yaw=0.7)
     assert y(drawn("speed", backwards).data[0]) == pytest.approx(-0.12, abs=1e-6)
