@@ -22,23 +22,21 @@ PI_TICKS: Final = {
 
 def all_figures(run: Run) -> list[Figure]:
     """Every panel in reading order."""
-    makers = (gait, phases, speed, path, trunk, clearances, loads, outputs, gains, stability)
-    joints = [angles(run, "hip", "leg"), angles(run, "knee", "foot")]
-    return [*(make(run) for make in makers), *joints, torques(run)]
+    makers = (_gait, _phases, _speed, _path, _trunk, _clearances, _loads, _outputs, _gains)
+    joints = [_angles(run, "hip", "leg"), _angles(run, "knee", "foot")]
+    return [*(make(run) for make in makers), _stability(run), *joints, _torques(run)]
 
 
-def over_time(key: str, title: str, note: str, data: list[Trace], y: Any, **more: Any) -> Figure:
-    """A figure of one panel over time."""
+def _over_time(key: str, title: str, note: str, data: list[Trace], y: Any, **more: Any) -> Figure:
     layout = theme.layout(more.pop("height", 260), xaxis=theme.axis("time [s]"), yaxis=y, **more)
     return Figure(key, title, note, data, layout)
 
 
-def gait(run: Run) -> Figure:
-    """Gait diagram: a bar where a foot stands."""
+def _gait(run: Run) -> Figure:
     n, target = run.record.n_legs, metrics.gait_name(run.record.n_legs)
     names = [f'<b style="color:{colour}">{leg}</b>' for leg, colour in run.colours.items()]
     rows = {"tickvals": list(range(n)), "ticktext": names, "range": [n - 0.4, -0.6]}
-    return over_time(
+    return _over_time(
         "gait",
         "Gait diagram",
         f"Black: the foot stands. Legs that are in phase in the {target} stand together.",
@@ -49,8 +47,7 @@ def gait(run: Run) -> Figure:
     )
 
 
-def phases(run: Run) -> Figure:
-    """Relative phases against the target gait and the tolerance of the strict criterion."""
+def _phases(run: Run) -> Figure:
     c, legs, target = run.record.controller, run.record.legs, run.summary.phi_target
     smoothed = metrics.relative_phases(c["o1"], c["o2"])
     own = {"width": 1, "dash": "dot", "visible": "legendonly"}
@@ -62,7 +59,7 @@ def phases(run: Run) -> Figure:
         ):
             traces.append(line(_uncut(run.samples.of(phi)), name, run.colours[leg], **style))
     levels = sorted({round(float(metrics.wrap_for_display(phi)), 6) for phi in target or ()})
-    return over_time(
+    return _over_time(
         "phi",
         "Relative phases",
         f"Smoothed over 1.5 s; positive where the leg is ahead of {legs[0]}. Dashed: target gait "
@@ -78,13 +75,12 @@ def phases(run: Run) -> Figure:
     )
 
 
-def speed(run: Run) -> Figure:
-    """Speed along the heading, raw and smoothed, and the mean along the path."""
+def _speed(run: Run) -> Figure:
     plant, mean = run.record.plant, run.summary.path_speed_m_per_s
     yaw = plant["rpy"][:, 2]
     raw = plant["velocity"][:, 0] * np.cos(yaw) + plant["velocity"][:, 1] * np.sin(yaw)
     slow = metrics.smoothed_speed(run.record.time, plant["position"], yaw)
-    return over_time(
+    return _over_time(
         "speed",
         "Forward speed",
         "Along the present heading. Dashed: mean along the path.",
@@ -97,8 +93,7 @@ def speed(run: Run) -> Figure:
     )
 
 
-def path(run: Run) -> Figure:
-    """Trunk path from above, equal axes, start and end marked."""
+def _path(run: Run) -> Figure:
     x, y = run.shown["position"][:, :2].T
     traces = [
         line(y, "trunk", theme.BLUE) | {"x": float32(x)},
@@ -111,8 +106,7 @@ def path(run: Run) -> Figure:
     return Figure("path", "Path of the trunk", note, traces, layout, over_time=False)
 
 
-def trunk(run: Run) -> Figure:
-    """Height over the ground and attitude of the trunk."""
+def _trunk(run: Run) -> Figure:
     plant = run.record.plant
     height = in_ground(run.record.experiment.ground, plant["position"])[:, 2]
     angles = np.degrees(np.unwrap(plant["rpy"], axis=0)).T
@@ -128,8 +122,7 @@ def trunk(run: Run) -> Figure:
     return stacked("trunk", "Height and attitude of the trunk", note, rows)
 
 
-def clearances(run: Run) -> Figure:
-    """Height of the feet over the ground."""
+def _clearances(run: Run) -> Figure:
     robot, ground = run.record.robot, run.record.experiment.ground
     gap = 1000.0 * clearance(ground, robot, run.shown["foot_position"])
     rows = [
@@ -140,8 +133,7 @@ def clearances(run: Run) -> Figure:
     return stacked("clearance", "Foot clearance", note, rows, matches="y")
 
 
-def loads(run: Run) -> Figure:
-    """Vertical ground force and sensor signal."""
+def _loads(run: Run) -> Figure:
     force = run.record.plant["foot_force"][..., 2]
     # A handful of impacts may be ten times the load of a step and would flatten every step.
     usual = max(float(np.nanquantile(force, 0.995)), 1.0)
@@ -154,30 +146,30 @@ def loads(run: Run) -> Figure:
     return run.leg_rows("grf", "Ground reaction forces", "N", series, note, range=limits)
 
 
-def outputs(run: Run) -> Figure:
-    """CPG outputs."""
+def _outputs(run: Run) -> Figure:
     series = {"o1 (hip)": run.record.controller["o1"], "o2 (knee)": run.record.controller["o2"]}
     note = "o1 drives the hip, o2 the knee."
     return run.leg_rows("cpg", "CPG outputs", "1", series, note, range=[-1.2, 1.2])
 
 
-def gains(run: Run) -> Figure:
-    """Adaptive feedback gain gamma per leg."""
+def _gains(run: Run) -> Figure:
     gamma = run.record.controller["gamma"].T
     lines = [run.line(g, *leg) for g, leg in zip(gamma, run.colours.items(), strict=True)]
-    note = "Gain of the load feedback on each CPG, learned while walking (Eq. 9)."
+    note = (
+        "Gain of the load feedback on each CPG as it acts: learned while walking (Eq. 9), times "
+        "feedback_kept once the couplings are on."
+    )
     axis = theme.axis("γ [1]", rangemode="tozero")
-    return over_time("gamma", "Sensory feedback gain γ", note, lines, axis)
+    return _over_time("gamma", "Sensory feedback gain γ", note, lines, axis)
 
 
-def stability(run: Run) -> Figure:
-    """Phase variance d and switch kappa of the neural coupling."""
+def _stability(run: Run) -> Figure:
     d = run.line(run.record.controller["d"], "d, left axis", theme.INK)
     area = {"yaxis": "y2", "fill": "tozeroy", "fillcolor": "rgba(213, 94, 0, 0.10)"}
     kappa = run.line(run.record.controller["kappa"], "κ, right axis", theme.VERMILLION, **area)
     kappa["line"]["shape"] = "hv"
     right = {"overlaying": "y", "side": "right", "range": [0, 1.08], "tickvals": [0, 1]}
-    return over_time(
+    return _over_time(
         "kappa",
         "Phase stability d and coupling switch κ",
         "κ = 1: the neural coupling (ANC) holds the stored phases. d: how much they still vary.",
@@ -187,8 +179,7 @@ def stability(run: Run) -> Figure:
     )
 
 
-def angles(run: Run, joint: str, part: str) -> Figure:
-    """Commanded and actual angles of a joint, which swings a part of the leg."""
+def _angles(run: Run, joint: str, part: str) -> Figure:
     actual = run.record.plant["joint_angle"][..., JOINTS.index(joint)]
     commanded = run.record.controller[f"theta_{joint}"]
     series = {"actual": np.degrees(actual), "commanded": np.degrees(commanded)}
@@ -199,8 +190,7 @@ def angles(run: Run, joint: str, part: str) -> Figure:
     return run.leg_rows(joint, f"{joint.capitalize()} angles", "°", series, note)
 
 
-def torques(run: Run) -> Figure:
-    """Hip and knee torque."""
+def _torques(run: Run) -> Figure:
     torque = run.record.plant["joint_torque"]
     series = {joint: torque[..., JOINTS.index(joint)] for joint in ("hip", "knee")}
     note = "Torque of the servos on the joints, positive in the direction of positive angles."

@@ -24,15 +24,13 @@ def page(
     """Text of a page.
 
     Args:
-        template: extends ``base.html.j2`` (blocks title, style, header, main) and places each
-            figure by ``{% include "figure.html.j2" %}`` with the name ``figure``.
-        figures: all of them, drawn by ``plots.js``.
-        package: where the template lies, in its folder ``templates``.
-        scripts: further scripts in the templates, run after the figures are drawn.
-        data: what these find as ``apnc.data``; ``time`` is the time vector of the figures.
+        template: extends ``base.html.j2`` (blocks title, style, header, main) and includes
+            ``figure.html.j2`` for each ``figure``.
+        figures: all of them; with one or more the page carries plotly.js, about 5 MB.
+        package: has the template in its folder ``templates``.
+        scripts: further templates, run as scripts after the figures are drawn.
+        data: what the scripts find as ``apnc.data``; ``time`` is the time vector of the figures.
         context: names for the template.
-
-    Pitfall: the page carries plotly.js, about 5 MB.
     """
     places = dict.fromkeys((package, "apnc.report"))
     environment = jinja2.Environment(

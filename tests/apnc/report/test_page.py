@@ -101,9 +101,10 @@ def test_45_seconds_fit_into_8_megabytes(report: Path) -> None:
 SEEN = """<script>window.apncProbe = () => ({
   clock: parseFloat(document.getElementById("clock")?.textContent),
   starts: typeof apnc === "undefined" ? 0 : apnc.window[0],
-  range: typeof apnc === "undefined" ? [] : apnc.plots.filter((p) => p.overTime).map((p) => p.element.layout.xaxis.range),
+  range: [...document.querySelectorAll(".js-plotly-plot")]
+    .filter((p) => p.id !== "plot-path").map((p) => p.layout.xaxis.range),
   extent: [...document.querySelectorAll(".js-plotly-plot")].flatMap((p) =>
-    Object.entries(p._fullLayout).filter(([k]) => /^yaxis/.test(k)).flatMap(([, axis]) => axis.range)),
+    Object.entries(p._fullLayout).flatMap(([k, axis]) => /^yaxis/.test(k) ? axis.range : [])),
 });</script>"""
 
 
@@ -163,7 +164,8 @@ def test_the_ground_is_drawn_as_its_lines_say(tmp_path: Path) -> None:
             "<script>window.apncProbe = (painted) => { apnc.player.pause(); apnc.player.seek(1);"
         )
         count = """
-          const { data } = document.getElementById("robot").getContext("2d").getImageData(0, 0, 600, 300);
+          const context = document.getElementById("robot").getContext("2d");
+          const { data } = context.getImageData(0, 0, 600, 300);
           let drawn = 0;
           for (let k = 3; k < data.length; k += 4) drawn += data[k] > 0;
           return { drawn }; };</script>"""
