@@ -9,14 +9,14 @@ from typing import Annotated
 
 import typer
 
-from apnc.cli.console import say, status, writable_file
+from apnc.cli.console import say, status, writable
 
 
 def bench(
     output: Annotated[Path, typer.Option(help="JSON file to write.")] = Path("apnc-bench.json"),
 ) -> None:
     """Measure what a tick costs, against its arithmetic and against PythonFMU."""
-    writable_file(output)
+    writable(output, file=True)
     with status("measuring") as shown:
         from apnc.bench.run import run_bench
         from apnc.bench.table import show_bench

@@ -9,35 +9,31 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rich.status import Status
 
+Text = str | None
+Texts = list[str] | None
+Number = float | None
+File = Path | None
 
-def writable(folder: Path) -> Path:
-    """``folder``, made and proved writable before anything is computed.
+
+def writable(path: Path, *, file: bool = False) -> Path:
+    """A folder, or a file, made or proved writable before anything is computed.
 
     Raises:
-        ValueError: it cannot be made or written.
+        ValueError: it cannot be made or written, or the file is a folder.
     """
+    folder = path.parent if file else path
     try:
         folder.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:
         raise ValueError(f"output folder {folder} cannot be written: {error.strerror}") from None
-    return folder
-
-
-def writable_file(path: Path) -> Path:
-    """``path``, whose folder is made and proved writable.
-
-    Raises:
-        ValueError: it is a folder, or its folder cannot be written.
-    """
-    if path.is_dir():
+    if file and path.is_dir():
         raise ValueError(f"file {path} is a folder")
-    writable(path.parent)
     return path
 
 
@@ -100,18 +96,3 @@ def bar(label: str) -> Iterator[Callable[[float, float, Callable[[float], str]],
         waiting.stop()
         if progress.live.is_started:
             progress.stop()
-
-
-@contextmanager
-def walking_bar(duration: float) -> Iterator[Callable[[float, Any], None]]:
-    """Bar of a walk; yields what to call with the time [s] and the controller."""
-    with bar("walking") as show:
-
-        def update(t: float, controller: Any) -> None:
-            def state(speed: float) -> str:
-                phases = " ".join(f"{angle:5.2f}" for angle in controller.phi)
-                return f"{t:5.1f} s  {speed:4.1f}x real time  phi {phases} rad"
-
-            show(t, duration, state)
-
-        yield update

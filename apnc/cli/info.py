@@ -37,11 +37,10 @@ def info(
             ("fmpy", fmpy.__version__),
         ]
     )
-    shown = [v for v in model.modelVariables if v.causality in ("input", "output", "parameter")]
-    show_table(
-        [
-            (v.name + "".join(f"[{n}]" for n in v.shape), v.causality, v.start or "", v.unit or "", v.description or "")
-            for v in shown
-        ],
-        "name", "causality", "start", "unit", "description",
-    )  # fmt: skip
+    headings = ("name", "causality", "start", "unit", "description")
+    rows = [
+        (v.name + "".join(f"[{n}]" for n in v.shape), v.causality, v.start, v.unit, v.description)
+        for v in model.modelVariables
+        if v.causality in ("input", "output", "parameter")
+    ]
+    show_table(([cell or "" for cell in row] for row in rows), *headings)

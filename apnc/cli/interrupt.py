@@ -19,14 +19,13 @@ class Interrupted(BaseException):
 
 
 class StopRequest:
-    """A request to stop, for ``simulate`` and ``run_study`` to ask for.
+    """A request to stop: what ``simulate`` and ``run_study`` ask for.
 
-    Before it is first asked for, Ctrl-C raises Interrupted. From then on the first Ctrl-C is
-    only noted, since a record is growing, and the second raises.
+    Until it is asked for the first time Ctrl-C raises Interrupted. After that the first Ctrl-C is
+    noted, since a record grows, and the second raises.
 
     Attributes:
-        asked: whether Ctrl-C was pressed. An import may turn what was raised into another error,
-            or swallow it; this tells.
+        asked: whether Ctrl-C was pressed; an import may swallow or change what was raised.
         running: whether a loop has begun.
     """
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 import apnc
-from apnc.cli.console import say, writable_file
+from apnc.cli.console import say, writable
 
 if TYPE_CHECKING:
     from apnc.loop.gait import Gait
@@ -31,7 +31,7 @@ def save(
     if form not in FORMATS:
         raise ValueError(f"format '{form}' is not one of {', '.join(FORMATS)}")
     gait = apnc.gait_of_run(run)
-    writable_file(file)
+    writable(file, file=True)
     if form == "ssv":
         from build_fmu.ssv import write_ssv
 

@@ -12,9 +12,11 @@ import typer
 from typer import Option
 
 import apnc
-from apnc.cli.console import bar, say, writable
+from apnc.cli.console import Number, Text, bar, say, writable
 from apnc.cli.interrupt import STOP, Interrupted
 from apnc.studies.registry import ALL, METHODS, STUDIES
+
+_BY_NAME: Final = inspect.Parameter.KEYWORD_ONLY
 
 TRIAL_FAILED: Final = 1
 """Exit code if a trial ended with an error."""
@@ -30,19 +32,17 @@ def _command(name: str, axes: tuple[str, ...]) -> Callable[..., None]:
 
     def option(name: str, kind: Any, default: Any, about: str) -> inspect.Parameter:
         form = Annotated[kind, Option(f"--{name}", help=about)]
-        return inspect.Parameter(
-            name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=form
-        )
+        return inspect.Parameter(name, _BY_NAME, default=default, annotation=form)
 
     parameters = [
         option("trials", int, 20, "Seeds per cell of the grid."),
-        option("duration", float | None, None, "Simulated time of a trial [s]."),
+        option("duration", Number, None, "Simulated time of a trial [s]."),
         option("workers", int | None, None, "Processes; all cores if omitted."),
-        option("scheduler", str | None, None, "Address of a Dask scheduler, tcp://..."),
+        option("scheduler", Text, None, "Address of a Dask scheduler, tcp://..."),
         option("output", Path, Path(f"apnc-study-{name}"), "Folder for the results."),
         option("resume", bool, False, "Finish an interrupted study."),
         option("series", bool, False, "Keep the record of every trial."),
-        *(option(axis, str | None, None, "Some of all, separated by commas.") for axis in axes),
+        *(option(axis, Text, None, "Some of all, separated by commas.") for axis in axes),
     ]
     command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     return command
@@ -58,7 +58,7 @@ def _run(
     with bar(f"study {name}") as show:
 
         def progress(done: int, trials: int, simulated: float, total: float) -> None:
-            show(simulated, total, lambda speed: f"{done} of {trials} trials  {speed:.0f} s/s")
+            show(simulated, total, lambda x: f"{done} of {trials} trials  {x:.1f}x real time")
 
         rows = apnc.run_study(
             name,

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
@@ -13,7 +13,17 @@ import typer
 from typer import Option
 
 import apnc
-from apnc.cli.console import say, show_table, status, walking_bar, writable, writable_file
+from apnc.cli.console import (
+    File,
+    Number,
+    Text,
+    Texts,
+    bar,
+    say,
+    show_table,
+    status,
+    writable,
+)
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.loop.steps import parse_steps
 from apnc_core.enumerations import Method
@@ -21,18 +31,21 @@ from exudyn_models.conditions import CONDITIONS
 
 if TYPE_CHECKING:
     from apnc.loop.experiment import Experiment
-    from apnc.loop.record import Record
+    from apnc.loop.fmu_controller import FmuController
+    from exudyn_models.ground import Surface
 
 ENDED_EARLY: Final = 1
 """Exit code of a run that fell or diverged."""
 
 _PLAIN: Final = ("robot", "duration", "seed", "method", "preset", "rate", "step", "contact", "fmu")
+_OVER: Final = (
+    ("mi", "mi", float),
+    ("turn", "turn", float),
+    ("reset", "reset", {"true": True, "false": False}.__getitem__),
+    ("conditions", "condition", str),
+)
 _METHODS: Final = ", ".join(Method.__members__)
 _NAMED: Final = ", ".join(CONDITIONS)
-
-Text = str | None
-Number = float | None
-File = Path | None
 
 
 def walk(
@@ -43,9 +56,7 @@ def walk(
     seed: Annotated[int | None, Option(help="Of noise and asymmetry; 0 if omitted.")] = None,
     method: Annotated[Text, Option(help=f"{_METHODS}; apnc if omitted.")] = None,
     preset: Annotated[Text, Option(help="robot, lilibot, paper; robot if omitted.")] = None,
-    setting: Annotated[
-        list[str] | None, Option("--set", metavar="NAME=VALUE", help="Of a parameter; repeatable.")
-    ] = None,
+    setting: Annotated[Texts, Option("--set", help="Parameter, NAME=VALUE; repeatable.")] = None,
     params: Annotated[File, Option(help="summary.json, SSV, JSON or TOML file.")] = None,
     memory: Annotated[File, Option(help="Learned gait to start with.")] = None,
     ground: Annotated[Text, Option(help="KIND:NAME=VALUE,... as in docs/using.md.")] = None,
@@ -68,14 +79,34 @@ def walk(
     """
     with status("starting"):
         experiment = experiment_of(context.params)
-        folder = writable(output)
-        json_path = writable_file(json_file) if json_file else None
-    with walking_bar(experiment.duration) as progress:
+        writable(output)
+        json_path = writable(json_file, file=True) if json_file else None
+    with bar("walking") as show:
+
+        def progress(t: float, controller: FmuController) -> None:
+            phases = " ".join(f"{angle:5.2f}" for angle in controller.phi)
+            state = f"x real time  phi {phases} rad"
+            show(t, experiment.duration, lambda x: f"{t:5.1f} s  {x:4.1f}{state}")
+
         record = apnc.simulate(experiment, progress=progress, stop=STOP)
     if len(record) == 0:
         raise Interrupted(NOTHING)
-    _write(record, folder, json_path)
-    _say_end(record, folder)
+    from apnc.report.folder import write_together
+    from apnc.report.wording import rows
+
+    apnc.write_report(record, output)
+    if json_path:
+        text = (output / "summary.json").read_bytes()
+        write_together(json_path.parent, {json_path.name: lambda path: path.write_bytes(text)})
+    show_table(rows(apnc.summarise(record)))
+    say(f"report: {output}/report.html")
+    why = f": {record.message}" if record.message else ""
+    words = f"{record.end} at {record.ended_at:.2f} s{why}; what was recorded is in {output}"
+    if record.end is apnc.End.interrupted:
+        raise Interrupted(words)
+    if not record.complete:
+        say(words, error=True)
+        raise typer.Exit(ENDED_EARLY)
 
 
 def experiment_of(options: Mapping[str, Any]) -> Experiment:
@@ -85,9 +116,9 @@ def experiment_of(options: Mapping[str, Any]) -> Experiment:
         ValueError: a value that is not understood or not allowed.
     """
     given = {name: options[name] for name in _PLAIN if options[name] is not None}
-    given |= _over("mi", options["mi"], float) | _over("turn", options["turn"], float)
-    given |= _over("reset", options["reset"], _true_or_false)
-    given |= _over("conditions", options["condition"], str)
+    for name, option, convert in _OVER:
+        if options[option] is not None:
+            given[name] = parse_steps(option, options[option], convert)
     given |= _ground(options["ground"], options["roughness"], options["slope"], options["seed"])
     settings: dict[str, Any] = {}
     if options["params"]:
@@ -110,58 +141,17 @@ def experiment_of(options: Mapping[str, Any]) -> Experiment:
     return apnc.Experiment(**given, settings=settings)
 
 
-def _over(name: str, text: str | None, convert: Callable[[str], Any]) -> dict[str, Any]:
-    try:
-        return {} if text is None else {name: parse_steps(text, convert)}
-    except ValueError:
-        raise ValueError(
-            f"{name} = '{text}' is not a value, or 0:value,seconds:value,..."
-        ) from None
-
-
-def _true_or_false(text: str) -> bool:
-    if text not in ("true", "false"):
-        raise ValueError(text)
-    return text == "true"
-
-
-def _ground(text: Text, roughness: Number, slope: Number, seed: int | None) -> dict[str, Any]:
+def _ground(text: Text, roughness: Number, slope: Number, seed: int | None) -> dict[str, Surface]:
     if (text, roughness, slope) == (None, None, None):
         return {}
-    from exudyn_models.ground import Ground, Plane, surface
+    if text is not None and roughness is not None:
+        raise ValueError(f"--ground {text} and --roughness {roughness} both say the ground")
+    from exudyn_models.ground import surface
 
-    if roughness is not None:
-        if text is not None:
-            raise ValueError(f"--ground {text} and --roughness {roughness} both say the ground")
-        ground = Ground(roughness=roughness, seed=seed or 0)
-    else:
-        ground = surface(text) if text is not None else Plane()
+    own = apnc.Plane() if roughness is None else apnc.Ground(roughness=roughness, seed=seed or 0)
+    ground = own if text is None else surface(text)
     if slope is not None:
         if ground.slope:
             raise ValueError(f"--ground {text} and --slope {slope} both say the slope")
         ground = replace(ground, slope=math.radians(slope))
     return {"ground": ground}
-
-
-def _write(record: Record, folder: Path, json_path: Path | None) -> None:
-    apnc.write_report(record, folder)
-    if json_path:
-        from apnc.report.folder import write_together
-
-        summary = (folder / "summary.json").read_bytes()
-        write_together(json_path.parent, {json_path.name: lambda path: path.write_bytes(summary)})
-
-
-def _say_end(record: Record, folder: Path) -> None:
-    """Print the key figures, where the files are and how it ended."""
-    from apnc.report.wording import rows
-
-    show_table(rows(apnc.summarise(record)))
-    say(f"report: {folder}/report.html")
-    why = f": {record.message}" if record.message else ""
-    words = f"{record.end} at {record.ended_at:.2f} s{why}; what was recorded is in {folder}"
-    if record.end is apnc.End.interrupted:
-        raise Interrupted(words)
-    if not record.complete:
-        say(words, error=True)
-        raise typer.Exit(ENDED_EARLY)

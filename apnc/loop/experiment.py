@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from enum import Enum
 from functools import cached_property, lru_cache
+from numbers import Integral
 from pathlib import Path
 from typing import Any, Final
 
@@ -88,13 +89,17 @@ class Experiment:
             raise ValueError(
                 f"method '{self.method}' is not one of {', '.join(Method.__members__)}"
             )
-        if not isinstance(self.seed, int) or self.seed < 0:
+        if not isinstance(self.seed, Integral) or self.seed < 0:
             raise ValueError(f"seed = {self.seed} is not a whole number, 0 or more")
         if not isinstance(self.ground, Surface):
             raise ValueError(f"ground = {self.ground!r} is not a ground")
         self._check_times()
         PlantOptions(step=self.step, contact=self.contact)
         self.parameters()
+        # equal experiments are equal however their numbers came, and go into JSON
+        own = {name: checked(name, value) for name, value in self.settings.items()}
+        object.__setattr__(self, "settings", own)
+        object.__setattr__(self, "seed", int(self.seed))
 
     def _check_times(self) -> None:
         limits = row("Ts")

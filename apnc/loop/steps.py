@@ -52,19 +52,21 @@ class Course:
         return self._values[bisect_right(self._starts, t) - 1]
 
 
-def parse_steps(text: str, convert: Callable[[str], Value]) -> Over[Value]:
+def parse_steps(name: str, text: str, convert: Callable[[str], Value]) -> Over[Value]:
     """``"0.1"`` -> 0.1; ``"0:0.15,25:0.4"`` -> ((0, 0.15), (25, 0.4)).
 
     Raises:
-        ValueError: a time or value that ``convert`` does not take.
+        ValueError: a time or value that ``convert`` does not take; it names ``name``.
     """
-    if ":" not in text:
-        return convert(text)
     pairs = [part.partition(":") for part in text.split(",")]
     try:
+        if ":" not in text:
+            return convert(text)
         return tuple((float(start), convert(entry.strip())) for start, _, entry in pairs)
-    except ValueError as error:
-        raise ValueError(f"'{text}' is not time:value,time:value,... ({error})") from None
+    except (KeyError, ValueError):
+        raise ValueError(
+            f"{name} = '{text}' is not a value, or 0:value,seconds:value,..."
+        ) from None
 
 
 def _text(value: Any) -> str:

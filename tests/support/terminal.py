@@ -29,7 +29,9 @@ def apnc(
     )
 
 
-def interrupted(*command: str, at: str, cwd: Path, env: dict[str, str] | None = None) -> tuple[int, str]:
+def interrupted(
+    *command: str, at: str, cwd: Path, env: dict[str, str] | None = None
+) -> tuple[int, str]:
     """Exit code and standard error of a command that gets Ctrl-C once ``at`` stands there."""
     terminal, theirs = pty.openpty()
     process = subprocess.Popen(

@@ -81,7 +81,7 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["walk", "--set", "xi=true"], "xi = True; allowed: a number"),
         (["walk", "--set", "Ts=1"], "Ts = 1.0 is not set here, but by rate"),
         (["walk", "--set", "N=3.7"], "N = 3.7; allowed: a whole number"),
-        (["walk", "--set", "kappa_rule=never"], "kappa_rule = 'never' is not one of armed, printed"),
+        (["walk", "--set", "kappa_rule=never"], "kappa_rule = 'never' is not one of armed"),
         (["walk", "--robot", "cow"], "robot 'cow'"),
         (["walk", "--condition", "C9"], "conditions 'C9' are not one of"),
         (["walk", "--fmu", "no.fmu"], "no.fmu: no such file"),

@@ -8,28 +8,34 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from apnc.loop.memory import Gait, GaitError, gait_of_run, read_gait, write_gait
-from apnc.loop.walk import WalkOptions, save, walk
 
-from build_fmu.build import host_fmu
+from apnc import Experiment, simulate, write_report
+from apnc.loop.gait import Gait, GaitError, gait_of_run, read_gait, write_gait
 
 GAIT = Gait(("RF", "RH", "LF", "LH"), (3.37, 3.2, 0.18))
 
 
-def walked(options: WalkOptions) -> tuple[np.ndarray, float]:
+SETTINGS = GAIT.settings(GAIT.legs)
+
+
+def walked(experiment: Experiment) -> tuple[np.ndarray, float]:
     """Relative phases over the last second [rad] and distance [m]."""
-    record = walk(options, host_fmu())
+    record = simulate(experiment)
     start, end = record.plant["position"][[0, -1], :2]
     return record.controller["phi"][-60:], float(np.linalg.norm(end - start))
 
 
 def test_a_stored_gait_comes_back_without_feedback_and_walks() -> None:
-    options = WalkOptions(mi=0.15, duration=12, condition="S3", settings=GAIT.settings())
-    phi, distance = walked(options)
+    phi, distance = walked(Experiment(mi=0.15, duration=12, conditions="S3", settings=SETTINGS))
     assert np.abs(phi - np.array([math.pi, math.pi, 0.0])).max() < 0.3
-    blank_phi, blank_distance = walked(WalkOptions(mi=0.15, duration=12, condition="S3"))
+    blank_phi, blank_distance = walked(Experiment(mi=0.15, duration=12, conditions="S3"))
     assert np.abs(blank_phi).max() < 0.3  # all legs in phase: it rocks in place
     assert distance > 10 * blank_distance
+
+
+def test_a_gait_of_other_legs_is_refused() -> None:
+    with pytest.raises(GaitError, match="of legs RF, RH, LF, LH; the robot has RF, LF, RH, LH"):
+        GAIT.settings(("RF", "LF", "RH", "LH"))
 
 
 def test_round_trip(tmp_path: Path) -> None:
@@ -38,14 +44,12 @@ def test_round_trip(tmp_path: Path) -> None:
 
 
 def test_gait_of_a_run_is_what_the_couplings_hold(tmp_path: Path) -> None:
-    options = WalkOptions(duration=2, settings=GAIT.settings())
-    save(walk(options, host_fmu()), options, tmp_path)
+    write_report(simulate(Experiment(duration=2, settings=SETTINGS)), tmp_path)
     assert gait_of_run(tmp_path) == GAIT
 
 
 def test_a_run_without_a_stored_gait_is_refused(tmp_path: Path) -> None:
-    options = WalkOptions(duration=1)
-    save(walk(options, host_fmu()), options, tmp_path)
+    write_report(simulate(Experiment(duration=1)), tmp_path)
     with pytest.raises(GaitError, match="no gait was stored in this run"):
         gait_of_run(tmp_path)
 

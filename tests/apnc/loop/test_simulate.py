@@ -1,114 +1,128 @@
-"""The closed loop with a made-up plant: what goes in, what comes out, and how it ends."""
+"""The closed loop, with a plant that only notes what is done to it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-import apnc
-from apnc import End, Experiment, Ground
+from apnc import Conditions, End, Experiment, simulate
 from apnc.loop.plant import PlantError
-from exudyn_models.channels import PLANT_CHANNELS
-from exudyn_models.conditions import Conditions
+from exudyn_models.conditions import CONDITIONS
 from exudyn_models.trace import Trace
 
+LEGS = ("RF", "RH", "LF", "LH")
 
-@dataclass
-class Stub:
-    """A plant that does not move and remembers what it was told."""
 
-    legs: tuple[str, ...] = ("RF", "RH", "LF", "LH")
-    mass: float = 2.5
-    fall_at: int | None = None
-    break_at: int | None = None
-    conditions: list[tuple[int, Conditions]] = field(default_factory=list)
-    commands: list[tuple[float, float]] = field(default_factory=list)
+class Noting:
+    """A plant whose foot k carries 10 k + tick N; falls or breaks down in a chosen tick."""
 
-    def __post_init__(self) -> None:
-        self.state = np.zeros(1)
+    legs = LEGS
+    mass = 2.5
+
+    def __init__(self, fall_at: int = -1, break_at: int = -1) -> None:
+        self.tick, self.fall_at, self.break_at = 0, fall_at, break_at
+        self.durations: list[float] = []
+        self.commands: list[Any] = []
+        self.conditions: list[tuple[int, Conditions]] = []
 
     @property
     def fell(self) -> bool:
-        return len(self.commands) == self.fall_at
+        return self.tick - 1 == self.fall_at
 
-    def grf(self) -> np.ndarray:
-        return np.arange(4.0) + len(self.commands)
+    def grf(self) -> Any:
+        return 10.0 * np.arange(4) + self.tick
 
     def set_conditions(self, conditions: Conditions) -> None:
-        self.conditions.append((len(self.commands), conditions))
+        self.conditions.append((self.tick, conditions))
 
-    def advance(self, theta_hip: np.ndarray, theta_knee: np.ndarray, duration: float) -> None:
-        self.commands.append((float(theta_hip[0]), duration))
-        if len(self.commands) == self.break_at:
+    def advance(self, theta_hip: Any, theta_knee: Any, duration: float) -> None:
+        if self.tick == self.break_at:
             raise PlantError("it broke")
+        self.commands.append((theta_hip.copy(), theta_knee.copy()))
+        self.durations.append(duration)
+        self.tick += 1
 
     def trace(self) -> Trace:
-        def split(rows: np.ndarray) -> dict[str, np.ndarray]:
-            return {c.name: np.zeros((len(rows), *c.shape(4))) for c in PLANT_CHANNELS}
-
-        return Trace([self.state], split)
+        parts = [np.zeros(1)]
+        return Trace(parts, lambda rows: {"grf": rows})
 
 
-def test_loads_go_to_the_controller_and_commands_to_the_plant_in_the_same_tick() -> None:
-    plant = Stub()
-    record = apnc.simulate(Experiment(duration=0.5, rate=20.0), plant=plant)
-    assert record.end is End.complete and len(record) == 10 and record.ended_at == 0.5
-    np.testing.assert_array_equal(record.controller["grf"][:, 0], np.arange(10.0))
-    np.testing.assert_allclose(record.controller["theta_hip"][:, 0], [c[0] for c in plant.commands])
-    assert {c[1] for c in plant.commands} == {0.05}
-    np.testing.assert_allclose(record.time, np.arange(10) / 20.0)
+def test_loads_go_in_and_commands_out_at_every_tick_of_the_update_rate() -> None:
+    plant, seen = Noting(), []
+    experiment = Experiment(duration=0.5, rate=50)
+    record = simulate(experiment, plant=plant, progress=lambda t, c: seen.append(t))
+    assert len(record) == plant.tick == 25
+    assert plant.durations == [0.02] * 25
+    assert seen == pytest.approx(0.02 * np.arange(1, 26))
+    assert record.time == pytest.approx(0.02 * np.arange(25))
+    loads = 10.0 * np.arange(4) + np.arange(25)[:, np.newaxis]
+    assert np.array_equal(record.controller["grf"], loads)
+    for place, name in enumerate(("theta_hip", "theta_knee")):
+        assert np.array_equal(record.controller[name], [c[place] for c in plant.commands])
+    assert (record.end, record.message, record.ended_at) == (End.complete, "", 0.5)
+    assert (record.legs, record.mass, record.complete) == (LEGS, 2.5, True)
 
 
-def test_commands_and_conditions_change_when_they_should() -> None:
-    plant = Stub()
+def test_commands_and_conditions_change_at_their_times() -> None:
+    plant = Noting()
     experiment = Experiment(
-        duration=1.0,
-        rate=10.0,
-        mi=((0.0, 0.1), (0.5, 0.2)),
-        turn=((0.0, 0.0), (0.3, -1.0)),
-        reset=((0.0, False), (0.8, True)),
-        conditions=((0.0, "C1"), (0.4, "C2"), (0.6, "C1")),
+        duration=1,
+        rate=50,
+        mi=((0, 0.1), (0.1, 0.3)),
+        turn=((0, 0.0), (0.2, -0.5)),
+        reset=((0, True), (0.3, False)),
+        conditions=((0, "C1"), (0.4, "C3"), (0.6, "C1")),
     )
-    record = apnc.simulate(experiment, plant=plant)
-    np.testing.assert_allclose(record.controller["MI"], [0.1] * 5 + [0.2] * 5)
-    np.testing.assert_allclose(record.controller["turn"], [0.0] * 3 + [-1.0] * 7)
-    np.testing.assert_allclose(record.controller["reset"], [0.0] * 8 + [1.0] * 2)
-    assert [(n, c.grf_noise) for n, c in plant.conditions] == [(4, 0.2), (6, 0.0)]
+    record = simulate(experiment, plant=plant)
+    ticks = np.arange(50)
+    assert np.array_equal(record.controller["MI"], np.where(ticks < 5, 0.1, 0.3))
+    assert np.array_equal(record.controller["turn"], np.where(ticks < 10, 0.0, -0.5))
+    assert np.array_equal(record.controller["reset"], ticks < 15)
+    assert plant.conditions == [(20, CONDITIONS["C3"]), (30, CONDITIONS["C1"])]
 
 
-def test_a_fall_ends_the_run_and_says_so() -> None:
-    record = apnc.simulate(Experiment(duration=1.0), plant=Stub(fall_at=7))
-    assert record.end is End.fell and len(record) == 7 and not record.complete
+def test_a_fall_ends_the_run_with_the_tick_after_which_the_plant_fell() -> None:
+    record = simulate(Experiment(duration=1), plant=Noting(fall_at=7))
+    assert (record.end, len(record), record.complete) == (End.fell, 8, False)
+    assert record.ended_at == pytest.approx(8 / 60)
 
 
-def test_what_breaks_down_keeps_what_was_recorded() -> None:
-    record = apnc.simulate(Experiment(duration=1.0), plant=Stub(break_at=7))
-    assert record.end is End.diverged and record.message == "it broke" and len(record) == 7
+def test_a_motion_that_breaks_down_keeps_what_was_recorded() -> None:
+    record = simulate(Experiment(duration=1), plant=Noting(break_at=7))
+    assert (record.end, len(record), record.message) == (End.diverged, 8, "it broke")
 
 
-@pytest.mark.parametrize("ticks", [0, 3])
-def test_a_stop_keeps_what_was_recorded(ticks: int) -> None:
-    plant = Stub()
-    record = apnc.simulate(
-        Experiment(duration=1.0), plant=plant, stop=lambda: len(plant.commands) == ticks
-    )
-    assert record.end is End.interrupted and len(record) == ticks
-    assert record.controller["o1"].shape == (ticks, 4)
-    assert record.plant["foot_force"].shape == (ticks, 4, 3)
+def test_stop_ends_the_run_before_the_next_tick() -> None:
+    plant = Noting()
+    record = simulate(Experiment(duration=1), plant=plant, stop=lambda: plant.tick == 7)
+    assert (record.end, len(record)) == (End.interrupted, 7)
 
 
-def test_an_fmu_for_other_legs_is_refused(fmu6: object) -> None:
+def test_a_run_of_no_tick_has_channels_of_no_rows() -> None:
+    record = simulate(Experiment(duration=1), plant=Noting(), stop=lambda: True)
+    assert (record.end, len(record), record.ended_at) == (End.interrupted, 0, 0.0)
+    assert record.controller["o1"].shape == (0, 4)
+    assert record.controller["phi"].shape == (0, 3)
+    assert record.plant["grf"].shape == (0, 1)
+
+
+def test_a_run_of_years_begins_at_once() -> None:
+    plant = Noting()
+    record = simulate(Experiment(duration=1e9), plant=plant, stop=lambda: plant.tick == 9)
+    assert len(record) == 9
+
+
+def test_an_fmu_for_other_legs_is_refused(fmu6: Path) -> None:
     with pytest.raises(ValueError, match="is for 6 legs; robot 'lilibot' has 4"):
-        apnc.simulate(Experiment(duration=1.0, fmu=str(fmu6)), plant=Stub())
+        simulate(Experiment(fmu=str(fmu6)), plant=Noting())
 
 
-def test_seed_and_ground_reach_the_plant() -> None:
-    walks = [
-        apnc.simulate(Experiment(duration=1.0, seed=seed, ground=ground))
-        for seed, ground in ((0, Ground()), (1, Ground()), (0, Ground(roughness=1.0)))
-    ]
-    places = [walk.plant["foot_position"] for walk in walks]
-    assert not np.array_equal(places[0], places[1])
-    assert not np.array_equal(places[0], places[2])
+def test_the_parameters_reach_the_controller() -> None:
+    def hips(**settings: Any) -> Any:
+        experiment = Experiment(duration=0.5, settings=settings)
+        return simulate(experiment, plant=Noting()).controller["theta_hip"]
+
+    assert not np.array_equal(hips(), hips(w12_0=0.3))

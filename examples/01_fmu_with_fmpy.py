@@ -1,7 +1,7 @@
 """Drive the controller FMU with fmpy alone: four legs in the air, then on the ground.
 
 apnc build --output Apnc.fmu
-python examples/drive_fmu.py Apnc.fmu
+python examples/01_fmu_with_fmpy.py Apnc.fmu
 """
 
 import sys

@@ -1,0 +1,100 @@
+"""Every example runs in an empty folder and says what it should find."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+def test_every_example_is_tested_and_short() -> None:
+    scripts = sorted(EXAMPLES.glob("*.py"))
+    assert [path.stem for path in scripts] == list(FINDS)
+    for path in scripts:
+        assert len(path.read_text().splitlines()) <= 60, path.name
+
+
+def numbers(text: str) -> list[float]:
+    return [float(x) for x in re.findall(r"-?\d+\.\d+", text)]
+
+
+def fmu_with_fmpy(lines: list[str]) -> None:
+    assert len(lines) == 10
+    assert lines[0].startswith("t =  0.0 s") and lines[-1].endswith("rad")
+
+
+def walk_and_report(lines: list[str]) -> None:
+    assert lines[0].startswith("complete at 20.0 s: apnc walk --mi 0.15 --duration 20 --seed 3")
+    assert 0.03 < numbers(lines[1])[0] < 0.3  # m/s
+    assert 1.2 < numbers(lines[2])[0] < 2.2  # Hz
+
+
+def own_robot(lines: list[str]) -> None:
+    assert [line.split()[0] for line in lines[1:5]] == ["RF", "RH", "LF", "LH"]
+    assert "weight 53.0 N" in lines[5]
+    assert lines[6].startswith("complete")
+    (force,) = numbers(lines[8])
+    assert force == pytest.approx(5.4 * 9.81, rel=0.05)  # the ground carries the robot
+
+
+def own_ground(lines: list[str]) -> None:
+    assert lines[0].startswith("complete")
+    before, top, after = (numbers(line)[0] for line in lines[1:4])
+    assert 3.0 < top - before < 12.0  # mm; the hill is 10 mm high
+    assert abs(after - before) < 2.0
+
+
+def learned_gait(lines: list[str]) -> None:
+    *empty, slow = numbers(lines[0])
+    *learned, fast = numbers(lines[1])
+    assert max(abs(phi) for phi in empty) < 0.3  # all legs in phase: it rocks in place
+    assert max(abs(phi - trot) for phi, trot in zip(learned, (3.14, 3.14, 0.0), strict=True)) < 0.3
+    assert fast > 4.0 * slow
+
+
+def sweep(lines: list[str]) -> None:
+    assert len(lines) == 5
+    flat, uphill, quick, _ = (numbers(line) for line in lines[1:])
+    assert uphill[2] < flat[2]  # m/s
+    assert quick[3] > flat[3]  # Hz
+
+
+FINDS = {
+    "01_fmu_with_fmpy": fmu_with_fmpy,
+    "02_walk_and_report": walk_and_report,
+    "03_own_robot": own_robot,
+    "04_own_ground": own_ground,
+    "05_learned_gait": learned_gait,
+    "06_sweep": sweep,
+}
+WRITES = {
+    "02_walk_and_report": ["walk/report.html", "walk/summary.json", "walk/record.csv"],
+    "05_learned_gait": ["gait.json"],
+    "06_sweep": ["sweep.csv"],
+}
+
+
+@pytest.mark.parametrize("name", FINDS)
+def test_example(name: str, tmp_path: Path, fmu4: Path) -> None:
+    (tmp_path / "Apnc.fmu").write_bytes(fmu4.read_bytes())
+    done = subprocess.run(
+        [sys.executable, str(EXAMPLES / f"{name}.py")],
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    FINDS[name](done.stdout.splitlines())
+    for file in WRITES.get(name, []):
+        assert (tmp_path / file).is_file()
+
+
+def test_the_own_robot_walks_from_the_command_line_too(tmp_path: Path) -> None:
+    from terminal import apnc  # noqa: PLC0415
+
+    robot = EXAMPLES / "03_own_robot.toml"
+    done = apnc("walk", "--robot", str(robot), "--duration", "1", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
