@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from apnc import Conditions, End, Experiment, simulate
+from apnc import Conditions, End, Experiment, Ground, Plane, simulate
 from apnc.loop.plant import PlantError
 from exudyn_models.conditions import CONDITIONS
 from exudyn_models.trace import Trace
@@ -126,3 +126,13 @@ def test_the_parameters_reach_the_controller() -> None:
         return simulate(experiment, plant=Noting()).controller["theta_hip"]
 
     assert not np.array_equal(hips(), hips(w12_0=0.3))
+
+
+def test_seed_and_ground_reach_the_plant() -> None:
+    walks = [
+        simulate(Experiment(duration=1.0, seed=seed, ground=ground))
+        for seed, ground in ((0, Plane()), (1, Plane()), (0, Ground(roughness=1.0)))
+    ]
+    places = [walk.plant["foot_position"] for walk in walks]
+    assert not np.array_equal(places[0], places[1])
+    assert not np.array_equal(places[0], places[2])
