@@ -122,9 +122,7 @@ def _columns(record: Record) -> Iterator[tuple[Column, Array]]:
         names = channel.columns(record.legs)
         entries = record.plant[channel.name].reshape(len(record), len(names))
         for entry, label in enumerate(names):
-            column = Column(
-                label, channel.unit, channel.frame, channel.description, channel.sign
-            )
+            column = Column(label, channel.unit, channel.frame, channel.description, channel.sign)
             yield column, entries[:, entry]
 
 
