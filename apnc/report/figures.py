@@ -22,7 +22,7 @@ PI_TICKS: Final = {
 
 def all_figures(run: Run) -> list[Figure]:
     """Every panel in reading order."""
-    makers = (_gait, _phases, _speed, _path, _trunk, _clearances, _loads, _outputs, _gains)
+    makers = (gait, phases, _speed, _path, _trunk, _clearances, _loads, outputs, _gains)
     joints = [_angles(run, "hip", "leg"), _angles(run, "knee", "foot")]
     return [*(make(run) for make in makers), _stability(run), *joints, _torques(run)]
 
@@ -32,7 +32,8 @@ def _over_time(key: str, title: str, note: str, data: list[Trace], y: Any, **mor
     return Figure(key, title, note, data, layout)
 
 
-def _gait(run: Run) -> Figure:
+def gait(run: Run) -> Figure:
+    """Which feet stand, over time."""
     n, target = run.record.n_legs, metrics.gait_name(run.record.n_legs)
     names = [f'<b style="color:{colour}">{leg}</b>' for leg, colour in run.colours.items()]
     rows = {"tickvals": list(range(n)), "ticktext": names, "range": [n - 0.4, -0.6]}
@@ -47,7 +48,8 @@ def _gait(run: Run) -> Figure:
     )
 
 
-def _phases(run: Run) -> Figure:
+def phases(run: Run) -> Figure:
+    """Relative phases of the oscillators, and the target gait."""
     c, legs, target = run.record.controller, run.record.legs, run.summary.phi_target
     smoothed = metrics.relative_phases(c["o1"], c["o2"])
     own = {"width": 1, "dash": "dot", "visible": "legendonly"}
@@ -146,7 +148,8 @@ def _loads(run: Run) -> Figure:
     return run.leg_rows("grf", "Ground reaction forces", "N", series, note, range=limits)
 
 
-def _outputs(run: Run) -> Figure:
+def outputs(run: Run) -> Figure:
+    """Outputs of the oscillators, a row per leg."""
     series = {"o1 (hip)": run.record.controller["o1"], "o2 (knee)": run.record.controller["o2"]}
     note = "o1 drives the hip, o2 the knee."
     return run.leg_rows("cpg", "CPG outputs", "1", series, note, range=[-1.2, 1.2])
