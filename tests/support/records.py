@@ -7,12 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-try:
-    from apnc.loop.experiment import Experiment
-    from apnc.loop.record import End, Record
-except ModuleNotFoundError:
-    from record_stand_in import End, Experiment, Record
-
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import End, Record
 from exudyn_models.robot.file import load_robot
 
 Array = NDArray[np.float64]
