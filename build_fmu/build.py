@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import importlib.resources
 import tempfile
+import zipfile
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -19,7 +20,7 @@ from build_fmu.model_description import model_description
 from build_fmu.model_description_fmi3 import build_description, model_description_fmi3
 from build_fmu.options import BuildOptions
 from build_fmu.package import zip_fmu
-from build_fmu.platforms import MODEL, PLATFORMS, BuildError, host_platform, placed
+from build_fmu.platforms import MODEL, PLATFORMS, BuildError, host_platform, place, placed
 
 __all__ = ["build_key", "cache_folder", "cached_fmu", "fmu_bytes", "host_fmu", "write_atomically"]
 
@@ -115,10 +116,30 @@ def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None
         return ready
     path = cache_folder() / f"{key}-{compiler_version() or 'none'}" / f"{MODEL}.fmu"
     if not path.is_file():
-        if options.platforms and not compiler_version():
+        everywhere = _ready_everywhere(options)
+        # darwin64 alone is one processor's file, and the ready one holds both
+        if everywhere.is_file() and ("darwin64" not in options.platforms):
+            content = _narrowed(everywhere, options)
+        elif options.platforms and not compiler_version():
             raise BuildError(_no_compiler())
-        write_atomically(path, fmu_bytes(options, progress))
+        else:
+            content = fmu_bytes(options, progress)
+        write_atomically(path, content)
     return path
+
+
+def _ready_everywhere(options: BuildOptions) -> Path:
+    """Where a ready FMU for all platforms would lie."""
+    return READY / f"{build_key(replace(options, platforms=tuple(PLATFORMS)))}.fmu"
+
+
+def _narrowed(fmu: Path, options: BuildOptions) -> bytes:
+    """The FMU with the binaries of ``options`` only, as a build of its own would give it."""
+    with zipfile.ZipFile(fmu) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    libraries = {name: files[place(PLATFORMS[name], options.fmi)] for name in options.platforms}
+    rest = {name: content for name, content in files.items() if not name.startswith("binaries/")}
+    return zip_fmu(rest | placed(libraries, options.fmi))
 
 
 def _no_compiler() -> str:
@@ -141,8 +162,10 @@ def host_fmu(legs: int = 4, fmi: int = 2) -> Path:
         BuildError: as ``cached_fmu``.
         OSError: the cache folder cannot be written.
     """
-    options = BuildOptions(legs=legs, fmi=fmi)
-    everywhere = READY / f"{build_key(options)}.fmu"
-    if everywhere.is_file():
+    host = host_platform()
+    options = BuildOptions(legs=legs, platforms=(host,), fmi=fmi)
+    everywhere = _ready_everywhere(options)
+    # FMPy on ARM Linux would open the library for Intel that it holds
+    if everywhere.is_file() and host != "aarch64-linux":
         return everywhere
-    return cached_fmu(replace(options, platforms=(host_platform(),)))
+    return cached_fmu(options)

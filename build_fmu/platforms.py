@@ -71,6 +71,11 @@ def host_platform() -> str:
     return names[sys.platform]
 
 
+def place(platform: Platform, fmi: int) -> str:
+    """Path in the FMU of the library of a platform."""
+    return f"binaries/{platform.folder_for(fmi)}/{MODEL}{platform.suffix}"
+
+
 def placed(libraries: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
     """Libraries by their path in the FMU.
 
@@ -81,15 +86,14 @@ def placed(libraries: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
     Importers of FMI 2.0 open ``darwin64`` and ``linux64`` on ARM machines too. So ``darwin64``
     holds both processors in one file, and an FMU for ARM Linux alone fills ``linux64`` as well.
     """
-    folders = {PLATFORMS[name].folder_for(fmi): library for name, library in libraries.items()}
+    files = {place(PLATFORMS[name], fmi): library for name, library in libraries.items()}
     if fmi == 2:
         if {"darwin64", "aarch64-darwin"} <= set(libraries):
             both = (libraries["darwin64"], libraries["aarch64-darwin"])
-            folders["darwin64"] = universal(both)
+            files[place(PLATFORMS["darwin64"], fmi)] = universal(both)
         for name, library in libraries.items():
-            folders.setdefault(PLATFORMS[name].opened, library)
-    suffix = {p.folder_for(fmi): p.suffix for p in PLATFORMS.values()}
-    return {f"binaries/{name}/{MODEL}{suffix[name]}": x for name, x in folders.items()}
+            files.setdefault(place(PLATFORMS[PLATFORMS[name].opened], fmi), library)
+    return files
 
 
 def universal(slices: tuple[bytes, ...]) -> bytes:

@@ -13,7 +13,9 @@ import pytest
 
 from build_fmu import build, compile, sources
 from build_fmu.build import build_key, cached_fmu, host_fmu
-from build_fmu.options import PLATFORMS, BuildError, BuildOptions, host_platform
+from build_fmu.options import BuildOptions
+from build_fmu.package import zip_fmu
+from build_fmu.platforms import PLATFORMS, BuildError, host_platform, placed
 
 ROOT = Path(__file__).resolve().parents[2]
 HOST = BuildOptions(platforms=(host_platform(),))
@@ -34,10 +36,37 @@ def test_it_is_taken_without_a_compiler_and_without_a_cache(ready: Path) -> None
     assert not (ready / "cache").exists()
 
 
-def test_one_for_all_platforms_serves_this_machine(ready: Path) -> None:
-    (ready / f"{build_key(BuildOptions())}.fmu").write_bytes(b"everywhere")
-    assert host_fmu().read_bytes() == b"everywhere"
-    assert cached_fmu(BuildOptions()).read_bytes() == b"everywhere"
+@pytest.fixture
+def everywhere(ready: Path) -> bytes:
+    """A ready FMU for all platforms, with made-up binaries."""
+    libraries = {name: f"library for {name}".encode() for name in PLATFORMS}
+    content = zip_fmu({"modelDescription.xml": b"<xml/>"} | placed(libraries, 2))
+    (ready / f"{build_key(BuildOptions())}.fmu").write_bytes(content)
+    return content
+
+
+def test_one_for_all_platforms_serves_this_machine(everywhere: bytes) -> None:
+    assert host_fmu().read_bytes() == everywhere
+    assert cached_fmu(BuildOptions()).read_bytes() == everywhere
+
+
+def test_fewer_platforms_are_taken_from_it(everywhere: bytes) -> None:
+    path = cached_fmu(BuildOptions(platforms=("win64", "aarch64-darwin")))
+    with zipfile.ZipFile(path) as archive:
+        assert {n: archive.read(n) for n in archive.namelist()} == {
+            "modelDescription.xml": b"<xml/>",
+            "binaries/win64/Apnc.dll": b"library for win64",
+            "binaries/aarch64-darwin/Apnc.dylib": b"library for aarch64-darwin",
+            "binaries/darwin64/Apnc.dylib": b"library for aarch64-darwin",
+        }
+
+
+def test_on_arm_linux_the_folder_that_fmpy_opens_is_for_arm(
+    everywhere: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(build, "host_platform", lambda: "aarch64-linux")
+    with zipfile.ZipFile(host_fmu()) as archive:
+        assert archive.read("binaries/linux64/Apnc.so") == b"library for aarch64-linux"
 
 
 def test_after_a_change_of_the_sources_the_compiler_is_asked_for(
