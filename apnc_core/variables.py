@@ -246,8 +246,8 @@ TABLE: Final[tuple[Variable, ...]] = (
         nominal=1.0, initial_from=("o2_start",), equation="2",
     ),
     _output(
-        "gamma", "gamma", "gain of the sensory feedback as it acts in Eq. 5: K_f + K_s (Eq. 9), times "
-        "feedback_kept while the couplings are on; gamma_tegotae or 0 in the baselines",
+        "gamma", "gamma", "gain of the sensory feedback as it acts in Eq. 5: K_f + K_s (Eq. 9), "
+        "times feedback_kept while the couplings are on; gamma_tegotae or 0 in the baselines",
         shape=Shape.leg, unit="1", nominal=0.01, equation="5, 9",
     ),
     _output(
