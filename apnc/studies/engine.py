@@ -134,7 +134,10 @@ def run_trial(trial: Trial, series: Path | None = None) -> Row:
     try:
         record = simulate(trial.experiment)
         if series is not None:
-            write_together(series, {f"{'-'.join(trial.place)}.csv": partial(write_csv, record)})
+            series.mkdir(exist_ok=True)
+            path = series / f"{'-'.join(trial.place)}.csv"
+            write_csv(record, aside := path.with_suffix(".part"))
+            aside.replace(path)
         return row | measured(trial.study, record)
     except Exception as error:
         text = " ".join(f"{type(error).__name__}: {error}".split())

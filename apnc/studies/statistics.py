@@ -72,33 +72,33 @@ def median(values: Sequence[float]) -> Median:
     return Median(middle, float(interval.low), float(interval.high), sample.size)
 
 
-class Test(NamedTuple):
+class Comparison(NamedTuple):
     """p and size of an effect, between -1 and 1."""
 
     p: float
     effect: float
 
 
-def rank_correlation(x: Sequence[float], y: Sequence[float]) -> Test | None:
+def rank_correlation(x: Sequence[float], y: Sequence[float]) -> Comparison | None:
     """Spearman's rho of pairs; None with fewer than three, or if x or y are all equal."""
     if len(x) < 3 or len(set(x)) < 2 or len(set(y)) < 2:
         return None
     test = stats.spearmanr(x, y)
-    return Test(float(test.pvalue), float(test.statistic))
+    return Comparison(float(test.pvalue), float(test.statistic))
 
 
-def compare(a: Sequence[float], b: Sequence[float]) -> Test:
+def compare(a: Sequence[float], b: Sequence[float]) -> Comparison:
     """Two-sided Mann-Whitney U test; p = 1 if either is empty or all are equal.
 
     The effect is the rank-biserial correlation: 1 if every a exceeds every b, -1 if none does.
     """
     if not a or not b or len({*a, *b}) == 1:
-        return Test(1.0, 0.0)
+        return Comparison(1.0, 0.0)
     test = stats.mannwhitneyu(a, b, alternative="two-sided")
-    return Test(float(test.pvalue), float(2.0 * test.statistic / (len(a) * len(b)) - 1.0))
+    return Comparison(float(test.pvalue), float(2.0 * test.statistic / (len(a) * len(b)) - 1.0))
 
 
-def holm(tests: Sequence[Test]) -> list[Test]:
+def holm(tests: Sequence[Comparison]) -> list[Comparison]:
     """The same tests with p corrected by Holm's step-down procedure."""
     corrected = [test.p for test in tests]
     floor = 0.0

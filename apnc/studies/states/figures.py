@@ -11,7 +11,7 @@ from apnc.loop.simulate import simulate
 from apnc.report import theme
 from apnc.report.encoding import float32
 from apnc.report.figure import Figure
-from apnc.report.figures import gait, outputs, phases
+from apnc.report.figures import all_figures
 from apnc.report.panels import Run
 from apnc.studies.plots import side_by_side
 from apnc.studies.rows import Row, values
@@ -20,6 +20,8 @@ from apnc.summary import summarise
 
 COUPLINGS: Final = {"apnc": "with ANC", "apc": "without ANC"}
 STATES: Final = ("S1", "S2", "S3")
+PANELS: Final = ("cpg", "phi", "gait")
+"""Of the report of a walk: outputs, relative phases and stances."""
 
 _SPANS: Final = (
     (TIMELINE.lowered, TIMELINE.broken, "S1"),
@@ -54,7 +56,7 @@ def over_time(record: Record, words: str) -> list[Figure]:
     run = Run(record, summarise(record))
     time = {"x": float32(record.time[run.samples.at])}
     found = []
-    for panel in (outputs(run), phases(run), gait(run)):
+    for panel in (panel for panel in all_figures(run) if panel.key in PANELS):
         layout = panel.layout | {
             "shapes": [*panel.layout.get("shapes", ()), *map(_band, _SPANS[::2])],
             "annotations": [*panel.layout.get("annotations", ()), *map(_label, _SPANS)],

@@ -1,0 +1,317 @@
+"""The engine: rows that are kept, run again, and the same wherever they run."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from apnc.studies import engine
+from apnc.studies.engine import run_study, run_trial
+from apnc.studies.rows import Row
+from apnc.studies.store import Store
+from apnc.studies.study import Study, Trial
+from apnc.studies.workers import pool
+from build_fmu.build import host_fmu
+from exudyn_models.robot import ROBOTS
+
+SHORT: dict[str, Any] = {"trials": 1, "duration": 1.0, "chosen": {"mi": [0.08]}}
+
+
+def quick(trial: Trial, series: Path | None = None) -> Row:
+    """A row without a run."""
+    rest = {"version": "0", "fell": False, "end": "complete", "error": ""}
+    return {"study": trial.study, "key": trial.place[1], **trial.cell, **rest}
+
+
+@pytest.fixture
+def no_runs(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Rows without runs; the keys of the trials that were asked for."""
+    asked: list[str] = []
+
+    def work(trial: Trial, series: Path | None = None) -> Row:
+        asked.append(trial.place[1])
+        return quick(trial)
+
+    monkeypatch.setattr(engine, "run_trial", work)
+    return asked
+
+
+def lines(folder: Path) -> list[Row]:
+    return [json.loads(line) for line in (folder / "trials.jsonl").read_text().splitlines()]
+
+
+# --- one trial ---------------------------------------------------------------------------------
+
+
+def test_a_trial_is_a_pure_function_of_its_experiment() -> None:
+    (trial,) = engine.grid_of("mi", methods=["apnc"], **SHORT)
+    row = run_trial(trial)
+    assert row == run_trial(trial) and json.dumps(row, allow_nan=False)
+    other = replace(trial, experiment=replace(trial.experiment, seed=1))
+    assert run_trial(other)["key"] != row["key"]
+    assert run_trial(other)["turned_deg"] != row["turned_deg"]
+
+
+def test_a_trial_that_raises_is_a_row_with_its_error() -> None:
+    (trial,) = engine.grid_of("mi", methods=["apnc"], **SHORT)
+    row = run_trial(replace(trial, experiment=replace(trial.experiment, fmu=__file__)))
+    assert row["error"].startswith("FmuError: ") and "\n" not in row["error"]
+    assert row["end"] == "error" and row["mi"] == 0.08
+
+
+def test_numbers_that_are_not_finite_are_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    measure = {"a": float("nan"), "b": float("inf"), "c": 1.0, "d": True}
+    study = Study("mi", lambda: None, measure=lambda record: measure)  # type: ignore[arg-type, return-value]
+    monkeypatch.setattr(engine, "load", lambda name: study)
+    from records import synthetic_record  # noqa: PLC0415
+
+    row = engine.measured("mi", synthetic_record(5.0))
+    assert [row[name] for name in "abcd"] == [None, None, 1.0, True]
+
+
+# --- a study -----------------------------------------------------------------------------------
+
+
+def test_without_a_folder_the_rows_come_back_and_no_file_is_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, no_runs: list[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    rows = run_study("mi", methods=["apnc"], trials=2)
+    assert [(row["mi"], row["seed"]) for row in rows[:3]] == [(0.04, 0), (0.04, 1), (0.06, 0)]
+    assert len(rows) == 26 and list(tmp_path.iterdir()) == []
+
+
+def test_progress_counts_trials_and_simulated_time(no_runs: list[str]) -> None:
+    told: list[tuple[int, int, float, float]] = []
+    run_study(
+        "mi", methods=["apnc"], trials=2, chosen={"mi": [0.1]},
+        progress=lambda *numbers: told.append(numbers),
+    )  # fmt: skip
+    assert told == [(0, 2, 0.0, 90.0), (1, 2, 45.0, 90.0), (2, 2, 90.0, 90.0)]
+
+
+def test_the_folder_holds_rows_table_report_and_claims(tmp_path: Path, no_runs: list[str]) -> None:
+    rows = run_study("mi", output=tmp_path / "new" / "folder", trials=1)
+    folder = tmp_path / "new" / "folder"
+    names = {path.name for path in folder.iterdir()}
+    assert names == {"trials.jsonl", "trials.csv", "report.html", "claims.md", "mi.md"}
+    with (folder / "trials.csv").open(newline="") as file:
+        table = list(csv.DictReader(file))
+    assert [(r["key"], float(r["mi"])) for r in table] == [(r["key"], r["mi"]) for r in rows]
+    assert lines(folder) == rows
+
+
+def test_a_folder_with_trials_is_not_overwritten(tmp_path: Path, no_runs: list[str]) -> None:
+    run_study("damage", output=tmp_path, trials=1)
+    before = (tmp_path / "trials.jsonl").read_bytes()
+    with pytest.raises(ValueError, match="holds trials already; --resume continues them"):
+        run_study("damage", output=tmp_path, trials=1)
+    assert (tmp_path / "trials.jsonl").read_bytes() == before
+
+
+def test_stopped_and_resumed_is_the_same_as_run_through(tmp_path: Path, no_runs: list[str]) -> None:
+    stops = iter([False, False, True, True, True])
+    part = run_study("damage", output=tmp_path / "a", trials=2, stop=lambda: next(stops))
+    assert len(part) == 2 and len(lines(tmp_path / "a")) == 2
+    assert (tmp_path / "a" / "report.html").exists()
+    no_runs.clear()
+    run_study("damage", output=tmp_path / "a", trials=2, resume=True)
+    assert len(no_runs) == 4 and not set(no_runs) & {row["key"] for row in part}
+    run_study("damage", output=tmp_path / "b", trials=2)
+    a, b = ((tmp_path / name / "trials.csv").read_text() for name in "ab")
+    assert a == b
+
+
+def test_resume_runs_rows_with_an_error_again(
+    tmp_path: Path, no_runs: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(trial: Trial, series: Path | None = None) -> Row:
+        error = "RuntimeError: moo" if trial.cell["method"] == "apnc" else ""
+        return quick(trial) | {"error": error, "end": "error" if error else "complete"}
+
+    with monkeypatch.context() as context:
+        context.setattr(engine, "run_trial", broken)
+        first = run_study("damage", output=tmp_path, trials=1)
+    assert [row["error"] for row in first] == ["RuntimeError: moo", "", ""]
+    rows = run_study("damage", output=tmp_path, trials=1, resume=True)
+    assert no_runs == [first[0]["key"]]
+    assert [row["error"] for row in rows] == ["", "", ""]
+    assert len(lines(tmp_path)) == 4  # the last line of a trial counts
+
+
+def test_resume_does_not_keep_rows_of_another_robot(
+    tmp_path: Path, no_runs: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "own.toml"
+    text = (ROBOTS / "lilibot.toml").read_text()
+    study = engine.load("damage")
+    own = replace(study, experiment=lambda **cell: study.experiment(robot=str(file), **cell))
+    monkeypatch.setattr(engine, "load", lambda name: own)
+    file.write_text(text)
+    before = run_study("damage", output=tmp_path / "out", trials=1)
+    again = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
+    assert again == before and len(no_runs) == 3
+    friction = next(line for line in text.splitlines() if line.startswith("friction ="))
+    file.write_text(text.replace(friction, "friction = 0.33"))
+    after = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
+    assert len(no_runs) == 6
+    assert not {row["key"] for row in before} & {row["key"] for row in after}
+
+
+def test_an_error_in_the_loop_loses_nothing(tmp_path: Path, no_runs: list[str]) -> None:
+    def progress(done: int, *_: float) -> None:
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_study("damage", output=tmp_path, trials=2, progress=progress)
+    assert len(lines(tmp_path)) == 2
+
+
+def test_series_are_kept_on_request(tmp_path: Path) -> None:
+    (row,) = run_study("mi", methods=["apnc"], output=tmp_path, series=True, **SHORT)
+    series = tmp_path / "series" / f"mi-{row['key']}.csv"
+    assert len(series.read_text().splitlines()) == 61
+    with pytest.raises(ValueError, match="series are kept in a folder"):
+        run_study("mi", series=True)
+
+
+def test_no_workers_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="workers = 0 is not at least 1"):
+        run_study("mi", workers=0, output=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_rows_do_not_depend_on_workers(tmp_path: Path) -> None:
+    here = run_study("mi", methods=["apnc", "apc"], **SHORT)
+    there = run_study("mi", methods=["apnc", "apc"], workers=2, **SHORT)
+    assert here == there and all(row["error"] == "" for row in here)
+
+
+# --- rows on disk ------------------------------------------------------------------------------
+
+
+def row(key: str, **more: Any) -> Row:
+    return {"study": "mi", "key": key, **more}
+
+
+def test_a_torn_line_is_dropped_and_the_rest_kept(tmp_path: Path) -> None:
+    path = tmp_path / "trials.jsonl"
+    store = Store(path)
+    store.add(row("a", x=1))
+    store.add(row("b", x=2))
+    store.close()
+    path.write_bytes(path.read_bytes()[:-4])
+    store = Store(path)
+    assert store.rows == {("mi", "a"): row("a", x=1)}
+    store.add(row("b", x=2))
+    store.close()
+    assert [json.loads(line)["key"] for line in path.read_text().splitlines()] == ["a", "b"]
+
+
+def test_a_damaged_line_costs_its_own_trial_only(tmp_path: Path) -> None:
+    path = tmp_path / "trials.jsonl"
+    whole = json.dumps(row("b"))
+    path.write_text(f'{{"study": "mi"\n"text"\n{{"key": "a"}}\n{whole}\n')
+    store = Store(path)
+    assert list(store.rows) == [("mi", "b")]
+    store.close()
+
+
+def test_a_row_is_on_disk_at_once(tmp_path: Path) -> None:
+    store = Store(tmp_path / "t.jsonl")
+    store.add(row("a"))
+    assert (tmp_path / "t.jsonl").read_text() == json.dumps(row("a")) + "\n"
+    store.close()
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
+def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
+    store = Store(tmp_path / "t.jsonl")
+    store._file = Path("/dev/full").open("ab")  # noqa: SIM115
+    with pytest.raises(OSError, match="No space left on device: '/dev/full'"):
+        store.add(row("a"))
+
+
+# --- kill, Dask --------------------------------------------------------------------------------
+
+KILLED = """
+import sys
+from apnc.studies.engine import run_study
+run_study("damage", trials=40, duration=1.0, workers=1, output=sys.argv[1])
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="kills with SIGKILL")
+def test_a_killed_study_resumes_without_loss_or_repetition(tmp_path: Path) -> None:
+    host_fmu()
+    path = tmp_path / "trials.jsonl"
+    process = subprocess.Popen([sys.executable, "-c", KILLED, str(tmp_path)])
+    try:
+        while process.poll() is None and (not path.is_file() or path.read_text().count("\n") < 2):
+            time.sleep(0.05)
+    finally:
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    before = [json.loads(line) for line in path.read_text().splitlines() if line.endswith("}")]
+    assert 2 <= len(before) < 120
+    rows = run_study("damage", trials=1, duration=1.0, output=tmp_path, resume=True)
+    assert lines(tmp_path)[: len(before)] == before
+    assert len(rows) == len({row["key"] for row in rows}) == 3
+
+
+@pytest.fixture
+def cluster(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
+    """A real Dask scheduler and two workers on loopback, each a process of its own."""
+    pytest.importorskip("distributed", reason="the extra cluster is not installed")
+    quiet: Any = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": tmp_path}
+    file = tmp_path / "scheduler.json"
+    dask = [sys.executable, "-m", "dask"]
+    options = ["--host", "127.0.0.1", "--port", "0", "--no-dashboard"]
+    start = [*dask, "scheduler", *options, "--scheduler-file", str(file)]
+    processes = [subprocess.Popen(start, **quiet)]
+    try:
+        while not (file.is_file() and file.read_text()):
+            assert processes[0].poll() is None
+            time.sleep(0.1)
+        address = json.loads(file.read_text())["address"]
+        worker = [*dask, "worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"]
+        processes += [subprocess.Popen(worker, **quiet) for _ in range(2)]
+        yield address, processes
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
+
+
+def test_dask_gives_the_same_rows_though_a_worker_is_killed(
+    cluster: tuple[str, list[subprocess.Popen[bytes]]],
+) -> None:
+    address, processes = cluster
+    asked: dict[str, Any] = {"trials": 4, "duration": 1.0}
+    here = run_study("damage", **asked)
+
+    def kill_one(done: int, *_: float) -> None:
+        if done == 3:
+            processes[1].kill()
+
+    there = run_study("damage", **asked, scheduler=address, progress=kill_one)
+    assert processes[1].wait() != 0
+    assert there == here and all(row["error"] == "" for row in here)
+
+
+def test_no_scheduler_is_said() -> None:
+    pytest.importorskip("distributed", reason="the extra cluster is not installed")
+    with pytest.raises(ValueError, match="no Dask scheduler at moo"):
+        pool(1, "moo")

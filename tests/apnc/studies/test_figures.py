@@ -1,0 +1,267 @@
+"""Traces of every figure, and the Markdown tables, on made-up rows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from made_up_rows import Row, made_up
+
+from apnc.report.figure import Figure
+from apnc.studies import conditions, contact, mi, sensitivity, states, steering
+from apnc.studies.contact.measure import Trot
+from apnc.studies.plots import convergence, over_axis, side_by_side, spread, style
+from apnc.studies.registry import load
+from apnc.studies.rows import AUTHORS, STRICT, methods_in
+
+AXIS = ("mi", "MI [1]")
+
+
+def times(cell: Row) -> Row:
+    """APNC forms at every MI, Tegotae at the higher one only, phase resetting in two trials."""
+    at = {"apnc": 2.0, "tegotae": 9.0 if cell["mi"] > 0.1 else None}
+    late = 5.0 if cell["mi"] < 0.1 and cell["seed"] < 2 else None
+    time = at.get(cell["method"], late)
+    return {STRICT: time, AUTHORS: 1.0, "path_speed_m_per_s": 0.1 + cell["mi"]}
+
+
+def of_kind(figure: Figure, kind: str, name: str) -> list[dict[str, Any]]:
+    return [trace for trace in figure.data if trace["type"] == kind and trace["name"] == name]
+
+
+def test_convergence_shows_times_and_the_share_of_success() -> None:
+    strict, authors = convergence(made_up({"mi": (0.08, 0.2)}, times), AXIS)
+    (apnc,) = of_kind(strict, "box", "APNC")
+    assert apnc["x"] == ["0.08"] * 6 + ["0.2"] * 6 and apnc["y"] == [2.0] * 12
+    (tegotae,) = of_kind(strict, "box", "Tegotae")
+    assert tegotae["x"] == ["0.2"] * 6 and tegotae["y"] == [9.0] * 6
+    (share,) = of_kind(strict, "scatter", "Tegotae: success")
+    assert share["x"] == ["0.08", "0.2"] and share["y"] == [0.0, 100.0]
+    assert share["yaxis"] == "y2"
+    (share,) = of_kind(strict, "scatter", "phase resetting: success")
+    assert share["y"] == pytest.approx([100 / 3, 0.0])
+    (share,) = of_kind(authors, "scatter", "phase resetting: success")
+    assert share["y"] == [100.0, 100.0]
+    assert strict.key == "mi-convergence_time_s" and "strict" in strict.note
+    assert authors.key == "mi-convergence_time_authors_s" and "2.8 rad" in authors.note
+    assert strict.layout["xaxis"]["categoryarray"] == ["0.08", "0.2"]
+    assert strict.layout["xaxis"]["title"]["text"] == "MI [1]"
+
+
+def test_a_cell_that_was_not_run_has_no_share() -> None:
+    rows = made_up({"mi": (0.08, 0.2)}, times)
+    part = [r for r in rows if r["method"] != "apnc" or r["mi"] == 0.2]
+    (share,) = of_kind(convergence(part, AXIS)[0], "scatter", "APNC: success")
+    assert share["y"] == [None, 100.0]
+
+
+def test_fewer_than_five_values_are_points() -> None:
+    rows = made_up({"mi": (0.08, 0.2)}, times, seeds=4)
+    assert not [t for t in convergence(rows, AXIS)[0].data if t["type"] == "box"]
+    (points,) = of_kind(convergence(rows, AXIS)[0], "scatter", "APNC")
+    assert points["mode"] == "markers" and points["y"] == [2.0] * 8
+    mixed = spread([("a", 1.0)] * 5 + [("b", 2.0)] * 4, "n", "#000000")
+    assert [(t["type"], t["x"], t["showlegend"]) for t in mixed] == [
+        ("box", ["a"] * 5, True),
+        ("scatter", ["b"] * 4, False),
+    ]
+    assert spread([], "n", "#000000") == []
+
+
+def test_colours_and_symbols_follow_the_method() -> None:
+    looks = {style(method) for method in ("apnc", "apc", "tegotae", "phase_reset")}
+    assert len({label for label, _, _ in looks}) == len({colour for _, colour, _ in looks}) == 4
+    assert style("next")[0] == "next"  # a new method shows by its name
+
+
+def test_an_unknown_method_is_an_error() -> None:
+    with pytest.raises(ValueError, match="'moo'"):
+        methods_in([{"method": "moo"}])
+
+
+def test_over_axis_shows_the_column() -> None:
+    figure = over_axis(
+        made_up({"mi": (0.08, 0.2)}, times), AXIS, "path_speed_m_per_s", "speed [m/s]"
+    )
+    (apnc,) = of_kind(figure, "box", "APNC")
+    assert sorted(set(apnc["y"])) == pytest.approx([0.18, 0.3])
+    assert (figure.key, figure.title) == ("mi-path_speed_m_per_s", "Speed")
+    assert figure.layout["yaxis"]["title"]["text"] == "speed [m/s]"
+
+
+def test_side_by_side_keeps_the_order() -> None:
+    figure = side_by_side("k", "T", "n", "speed [m/s]", {"b": [1.0, 2.0], "a": [3.0] * 5})
+    assert [(t["type"], t["x"][0], t["y"]) for t in figure.data] == [
+        ("scatter", "b", [1.0, 2.0]),
+        ("box", "a", [3.0] * 5),
+    ]
+    assert figure.layout["xaxis"]["categoryarray"] == ["b", "a"]
+
+
+def test_the_studies_of_the_paper_have_their_figures() -> None:
+    def keys(name: str, rows: list[Row]) -> list[str]:
+        return [figure.key for figure in load(name).figures(rows)]
+
+    rows = made_up({"mi": (0.08, 0.2)}, times)
+    both = [STRICT, AUTHORS]
+    assert keys("mi", rows) == [f"mi-{c}" for c in [*both, mi.DUTY, "path_speed_m_per_s"]]
+    for name, axis in (("rate", "rate"), ("terrain", "roughness")):
+        cells = made_up({axis: (5.0, 60.0)}, lambda cell: {STRICT: 3.0, AUTHORS: 2.0}, study=name)
+        assert keys(name, cells) == [f"{name}-{c}" for c in both]
+        title = load(name).figures(cells)[0].layout["xaxis"]["title"]["text"]
+        assert title in ("update rate [Hz]", "roughness R [1]")
+
+
+def test_conditions_name_what_differs() -> None:
+    def figures(cell: Row) -> Row:
+        better = 5.0 * (cell["method"] == "apnc" and cell["condition"] == "C2")
+        return dict.fromkeys(conditions.METRICS, 0.1 * cell["seed"] + better)
+
+    rows = made_up({"condition": ("C1", "C2")}, figures, seeds=20, study="conditions")
+    for figure in load("conditions").figures(rows):
+        assert figure.note.startswith("APNC differs from: C2 Tegotae (p = ")
+        assert "C2 phase resetting (p = " in figure.note and "C1" not in figure.note
+        assert "Holm" in figure.note
+    alike = load("conditions").figures([r for r in rows if r["condition"] == "C1"])
+    assert alike[0].note.startswith("APNC differs from: no baseline.")
+    assert [f.layout["yaxis"]["title"]["text"] for f in alike] == [
+        "balance [1/rad]",
+        "coordination [1]",
+        "cost of transport [1]",
+    ]
+
+
+def test_damage_shows_the_speed_of_every_method() -> None:
+    speed = {"apnc": 0.1, "tegotae": 0.2, "phase_reset": 0.3}
+    rows = made_up({}, lambda c: {"path_speed_m_per_s": speed[c["method"]]}, study="damage")
+    (figure,) = load("damage").figures(rows)
+    assert [(t["name"], t["y"][0]) for t in figure.data] == [
+        ("APNC", 0.1),
+        ("Tegotae", 0.2),
+        ("phase resetting", 0.3),
+    ]
+
+
+def state_rows() -> list[Row]:
+    def figures(cell: Row) -> Row:
+        with_anc = cell["method"] == "apnc"
+        speeds = {f"state_speed_s{i}": 0.1 * i + 0.01 * with_anc for i in (1, 2, 3)}
+        good = {"state_S1": True, "state_S2": cell["seed"] > 1, "state_S3": with_anc}
+        return speeds | good | {states.FORMED[0]: 1.5, states.BACK[0]: 1.0 + cell["seed"]}
+
+    return made_up({}, figures, methods=("apnc", "apc"), study="states")
+
+
+def test_states_show_speeds_with_and_without_couplings() -> None:
+    (figure,) = states.STUDY.figures(state_rows())
+    assert [(t["name"], t["y"][0]) for t in figure.data] == [
+        ("S1 with ANC", pytest.approx(0.11)),
+        ("S1 without ANC", pytest.approx(0.1)),
+        ("S2 with ANC", pytest.approx(0.21)),
+        ("S2 without ANC", pytest.approx(0.2)),
+        ("S3 with ANC", pytest.approx(0.31)),
+        ("S3 without ANC", pytest.approx(0.3)),
+    ]
+
+
+def test_the_table_of_states() -> None:
+    text = states.table(state_rows())
+    assert text.splitlines()[2:4] == [
+        "| with ANC | S1 | the gait forms and lasts to the break | 6/6 (54 ... 100 %) | "
+        "1.5 (1.5 ... 1.5) | 0.110 (0.110 ... 0.110) |",
+        "| with ANC | S2 | keeps the trot at every moment and walks, front sensors stuck | "
+        "4/6 (22 ... 96 %) | - | 0.210 (0.210 ... 0.210) |",
+    ]
+    assert (
+        "| without ANC | S3 | rocks in place, legs in phase | 0/6 (0 ... 46 %) | 3.5 (1.0" in text
+    )
+    assert len(text.splitlines()) == 2 + 6
+    only = states.table([row for row in state_rows() if row["method"] == "apc"])
+    assert "with ANC | S1" not in only.replace("without ANC", "")
+
+
+def test_steering_shows_every_section() -> None:
+    def figures(cell: Row) -> Row:
+        column = "speed" if cell["course"] == "speeds" else "yaw_rate"
+        return {f"{column}_section_{i}": 0.1 * i for i in range(1, 5)}
+
+    rows = made_up({"course": ("speeds", "turns")}, figures, methods=("apnc",), study="steering")
+    speed, yaw = steering.STUDY.figures(rows)
+    assert [(t["name"], t["y"][0]) for t in speed.data] == [
+        ("MI 0.15, section 1", pytest.approx(0.1)),
+        ("MI 0.4, section 2", pytest.approx(0.2)),
+        ("MI 0.15, section 3", pytest.approx(0.3)),
+    ]
+    assert [(t["name"], t["y"][0]) for t in yaw.data] == [
+        ("straight", pytest.approx(0.1)),
+        ("right", pytest.approx(0.2)),
+        ("left", pytest.approx(0.3)),
+        ("straight again", pytest.approx(0.4)),
+    ]
+    (only,) = steering.STUDY.figures([row for row in rows if row["course"] == "turns"])
+    assert only.key == "steering-turns"
+
+
+def test_the_table_of_mi_counts_failures_and_errors() -> None:
+    rows = made_up({"mi": (0.1,)}, times, methods=("apnc",), seeds=4)
+    for row, time in zip(rows, (3.0, 5.0, None, None), strict=True):
+        row |= {STRICT: time, AUTHORS: 2.0, "late_speed_m_per_s": 0.1}
+    rows[2]["fell"] = True
+    del rows[3][STRICT], rows[3][AUTHORS], rows[3]["late_speed_m_per_s"], rows[3]["fell"]
+    assert mi.table(rows).splitlines()[2] == (
+        "| apnc | 0.10 | 2/4 (7 ... 93 %) | 4.0 (3.5 ... 4.5; 5.0) | 3/4 | 2.0 | "
+        "0.100 (0.100 ... 0.100) | 1 |"
+    )
+
+
+def test_the_table_of_mi_has_a_line_per_method_and_mi() -> None:
+    lines = mi.table(made_up({"mi": (0.2, 0.08)}, times)).splitlines()[2:]
+    assert [line[2:17] for line in lines[:2]] == ["apnc | 0.08 | 6", "apnc | 0.20 | 6"]
+    assert lines[2].startswith("| tegotae | 0.08 | 0/6 (0 ... 46 %) | - | 6/6 | 1.0 | - | 0 |")
+    assert len(lines) == 6
+
+
+def test_the_table_of_sensitivity_shows_what_did_not_form() -> None:
+    def figures(cell: Row) -> Row:
+        time = None if cell["seed"] else 3.21
+        return {STRICT: time, "path_speed_m_per_s": 0.05, "fell": bool(cell["seed"])}
+
+    cells = {"change": ("nothing",), "mi": (0.08, 0.16)}
+    rows = made_up(cells, figures, methods=("apnc",), seeds=2, study="sensitivity")
+    assert sensitivity.table(rows).splitlines()[2] == (
+        "| nothing | 3.2, - | 0.050 | 3.2, - | 0.050 | 2/4 |"
+    )
+
+
+def test_contact_shows_error_and_chatter_over_the_step() -> None:
+    def figures(cell: Row) -> Row:
+        step = 1e3 / 60 / cell["steps"]
+        error = 0.0 if cell["steps"] == 256 else 0.1 * step
+        return {"step_ms": step, "force_error": error, "chatter": 0.01}
+
+    axes = {"depth": (2e-4, 1e-6), "steps": (8, 256)}
+    rows = made_up(axes, figures, methods=("apnc",), seeds=1, study="contact")
+    del rows[0]["force_error"], rows[0]["chatter"]  # ended with an error
+    (figure,) = contact.STUDY.figures(rows)
+    shown = {trace["name"]: trace["x"] for trace in figure.data}
+    assert shown["force error, damping depth 0.2 mm"] == []
+    assert shown["force error, damping depth 0.001 mm"] == [pytest.approx(1e3 / 60 / 8)]
+    assert len(shown["chatter, damping depth 0.001 mm"]) == 2
+    assert figure.layout["xaxis"]["type"] == figure.layout["yaxis"]["type"] == "log"
+
+
+def test_touch_down_is_shown_for_four_laws(monkeypatch: pytest.MonkeyPatch) -> None:
+    def trot(depth: float, steps: int) -> Trot:
+        forces = np.zeros((600, 4, 3))
+        forces[300:, 0, 2] = 1.0
+        return Trot(forces, np.zeros(3))
+
+    monkeypatch.setattr(contact, "trot", trot)
+    (figure,) = contact.STUDY.scenes()
+    assert [trace["name"] for trace in figure.data] == [
+        "0.0651 ms, damping depth 0.001 mm",
+        "0.0651 ms, damping depth 0.2 mm",
+        "0.521 ms, damping depth 0.2 mm",
+        "1.04 ms, damping depth 0.2 mm",
+    ]

@@ -1,0 +1,224 @@
+"""What every study runs."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import asdict
+from typing import Any
+
+import pytest
+
+from apnc.loop.steps import steps_of
+from apnc.studies import contact, sensitivity
+from apnc.studies.engine import grid_of
+from apnc.studies.registry import STUDIES, load, names_of
+from apnc.studies.study import BASELINES, Trial
+from exudyn_models.robot import load_robot
+
+LILIBOT = load_robot("lilibot")
+
+
+def count(name: str, trials: int = 2, **more: Any) -> Counter[tuple[Any, ...]]:
+    """How often each method and value of the axes occurs."""
+    axes = load(name).axes
+    return Counter(
+        (t.cell["method"], *(t.cell[axis] for axis in axes)) for t in grid_of(name, trials, **more)
+    )
+
+
+def of(name: str, **cell: Any) -> list[Trial]:
+    return [t for t in grid_of(name, 2) if all(t.cell[k] == v for k, v in cell.items())]
+
+
+@pytest.mark.parametrize(
+    ("name", "cells", "methods", "duration"),
+    [
+        ("mi", 13, ("apnc", "apc", "tegotae", "phase_reset"), 45.0),
+        ("rate", 12, BASELINES, 60.0),
+        ("terrain", 11, BASELINES, 45.0),
+        ("conditions", 4, BASELINES, 45.0),
+        ("damage", 1, BASELINES, 45.0),
+        ("states", 1, ("apnc", "apc"), 34.0),
+        ("steering", 2, ("apnc",), 60.0),
+        ("sensitivity", 28 * 2, ("apnc",), 45.0),
+        ("contact", 12, ("apnc",), 30.0),
+    ],
+)
+def test_size_methods_and_duration(
+    name: str, cells: int, methods: tuple[str, ...], duration: float
+) -> None:
+    found = count(name)
+    assert len(found) == cells * len(methods) and set(found.values()) == {2}
+    assert {cell[0] for cell in found} == set(methods)
+    for trial in grid_of(name, 2):
+        assert trial.experiment.duration == trial.cell["duration"] == duration
+        assert trial.experiment.method == trial.cell["method"]
+        assert trial.experiment.seed == trial.cell["seed"]
+        assert trial.experiment.preset == "robot" and not trial.experiment.settings
+        assert trial.experiment.description.name == "lilibot"
+
+
+def test_the_paper_is_all_of_its_experiments() -> None:
+    assert names_of("all") == [name for name in STUDIES if name not in ("sensitivity", "contact")]
+    assert {t.study for t in grid_of("all", 1)} == set(names_of("all"))
+
+
+def test_every_trial_has_its_own_place() -> None:
+    trials = grid_of("all", 2) + grid_of("sensitivity", 2) + grid_of("contact", 2)
+    assert len({t.place for t in trials}) == len(trials)
+
+
+def test_mi_is_that_of_the_cell() -> None:
+    mis = {t.experiment.mi for t in grid_of("mi", 1)}
+    assert sorted(mis) == pytest.approx([0.04 + 0.02 * i for i in range(13)])
+    assert all(t.experiment.mi == t.cell["mi"] for t in grid_of("mi", 1))
+
+
+def test_the_rate_is_the_rate_of_the_controller() -> None:
+    assert sorted({1 / t.experiment.Ts for t in grid_of("rate", 1)}) == pytest.approx(
+        [5.0 * i for i in range(1, 13)]
+    )
+    for trial in grid_of("rate", 1):
+        assert trial.experiment.parameters()["Ts"] == pytest.approx(1.0 / trial.cell["rate"])
+        assert trial.experiment.mi == 0.08
+
+
+def test_the_ground_is_rough_and_other_for_every_seed() -> None:
+    for trial in grid_of("terrain", 2):
+        ground = trial.experiment.ground.to_dict()
+        assert ground["kind"] == "obstacles"
+        assert ground["roughness"] == trial.cell["roughness"]
+        assert ground["seed"] == trial.cell["seed"]
+        assert trial.experiment.mi == 0.08
+    assert [t.cell["roughness"] for t in of("terrain", method="apnc", seed=0)] == pytest.approx(
+        [0.1 * i for i in range(11)]
+    )
+
+
+def test_conditions_are_the_papers() -> None:
+    assert {t.experiment.conditions for t in grid_of("conditions", 1)} == {"C1", "C2", "C3", "C4"}
+    assert all(t.experiment.conditions == t.cell["condition"] for t in grid_of("conditions", 1))
+    assert all(t.experiment.mi == 0.08 for t in grid_of("conditions", 1))
+
+
+def test_damage_is_a_damaged_leg() -> None:
+    assert {(t.experiment.conditions, t.experiment.mi) for t in grid_of("damage", 1)} == {
+        ("C3", 0.15)
+    }
+
+
+def test_states_follow_the_timeline() -> None:
+    for trial in grid_of("states", 1):
+        assert trial.experiment.conditions == (
+            (0.0, "S1"),
+            (1.7, "C1"),
+            (14.0, "S2"),
+            (20.0, "S3"),
+        )
+        assert trial.experiment.mi == ((0.0, 0.15), (20.0, 0.0), (24.0, 0.15))
+        assert trial.cell["mi"] == "0:0.15,20:0.0,24:0.15"
+
+
+def test_steering_turns_right_and_then_left() -> None:
+    (turns,) = of("steering", course="turns", seed=0)
+    assert turns.experiment.turn == ((0.0, 0.0), (20.0, -1.0), (35.0, 1.0), (50.0, 0.0))
+    assert turns.experiment.mi == 0.15
+    (speeds,) = of("steering", course="speeds", seed=1)
+    assert speeds.experiment.mi == ((0.0, 0.15), (25.0, 0.4), (40.0, 0.15))
+    assert steps_of(speeds.experiment.turn) == ((0.0, 0.0),)
+
+
+def leaves(value: Any, name: str = "") -> dict[str, Any]:
+    """Every number of nested data, by its place."""
+    if isinstance(value, dict):
+        pairs = list(value.items())
+    elif isinstance(value, (list, tuple)):
+        pairs = list(enumerate(value))
+    else:
+        return {name: value}
+    return {k: v for key, part in pairs for k, v in leaves(part, f"{name}/{key}").items()}
+
+
+@pytest.mark.parametrize("name", sensitivity.CHANGES)
+def test_a_change_touches_one_number_of_each_part(name: str) -> None:
+    robot = sensitivity.CHANGES[name](LILIBOT)
+    before, after = leaves(asdict(LILIBOT)), leaves(asdict(robot))
+    changed = [key for key in before if before[key] != after[key]]
+    if name == "nothing":
+        assert changed == []
+    elif "tibia" in name:
+        assert len(changed) == 2 * len(LILIBOT.legs)
+        assert robot.mass == pytest.approx(LILIBOT.mass)
+        assert robot.legs[0].femur.mass > LILIBOT.legs[0].femur.mass
+    else:
+        assert len(changed) == 1
+
+
+def test_changes_do_what_they_say() -> None:
+    after = {name: change(LILIBOT) for name, change in sensitivity.CHANGES.items()}
+    assert after["friction 0.5"].contact.friction == 0.5
+    assert after["P x 0.8"].servo.stiffness == pytest.approx(0.8 * LILIBOT.servo.stiffness)
+    assert after["sensor shows the norm"].sensor.component == "norm"
+    x, y, z = LILIBOT.trunk.body.com
+    higher = after["trunk's centre of mass 10 mm higher"].trunk.body.com
+    assert higher == pytest.approx((x, y, z + 0.01))
+    assert after["5 mm further back"].trunk.body.com == pytest.approx((x - 0.005, y, z))
+
+
+def test_the_changed_robot_walks() -> None:
+    trials = grid_of("sensitivity", 1, chosen={"change": ["friction 0.5"], "mi": [0.1]})
+    assert [t.experiment.description.contact.friction for t in trials] == [0.5]
+    assert [t.experiment.mi for t in trials] == [0.1]
+
+
+def test_contact_varies_damping_depth_and_step() -> None:
+    cells = {
+        (t.experiment.description.contact.damping_depth, round(1 / 60 / t.experiment.step))
+        for t in grid_of("contact", 1)
+    }
+    depths = (LILIBOT.contact.damping_depth, 1e-6)
+    assert cells == {(depth, n) for depth in depths for n in (8, 16, 32, 64, 128, 256)}
+    assert depths[0] == contact.GRADUAL and depths[1] == contact.SUDDEN
+
+
+def test_chosen_values_methods_and_duration() -> None:
+    trials = grid_of("mi", 1, ["tegotae"], {"mi": ["0.1", "0.1", 0.3]}, 5.0)
+    assert [(t.experiment.method, t.experiment.mi, t.experiment.duration) for t in trials] == [
+        ("tegotae", 0.1, 5.0),
+        ("tegotae", 0.3, 5.0),
+    ]
+    assert trials[0].cell["duration"] == 5.0
+
+
+def test_methods_of_all_leave_the_others_alone() -> None:
+    by_study = {(t.study, t.cell["method"]) for t in grid_of("all", 1, ["tegotae"])}
+    assert ("rate", "tegotae") in by_study and ("rate", "apnc") not in by_study
+    assert {method for study, method in by_study if study == "states"} == {"apnc", "apc"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("moo", 1), "study 'moo' is not one of mi, rate, .*, all"),
+        (("mi", 0), "trials = 0 is not at least 1"),
+        (("mi", 1, ["moo"]), "method 'moo' is not one of apnc"),
+        (("mi", 1, []), "no method is given"),
+        (("states", 1, ["tegotae"]), "study 'states' takes no methods"),
+        (("mi", 1, None, {"mi": []}), "no mi is given"),
+        (("mi", 1, None, {"mi": ["fast"]}), "mi = fast: not a number"),
+        (("mi", 1, None, {"mi": [9.0]}), "mi = 9.0 is not in"),
+        (("mi", 1, None, {"rate": [5.0]}), "rate is no axis of 'mi'; allowed: mi"),
+        (("damage", 1, None, {"mi": [5.0]}), "mi is no axis of 'damage'; allowed: none"),
+        (("sensitivity", 1, None, {"change": ["moon"]}), "change 'moon' is not one of nothing, "),
+        (("contact", 1, None, {"steps": ["9"]}), "steps '9' is not one of 8, 16"),
+        (("mi", 1, None, None, -1.0), "duration = -1"),
+    ],
+)
+def test_bad_grids_are_refused(arguments: tuple[Any, ...], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        grid_of(*arguments)
+
+
+def test_options_of_the_registry_are_those_of_the_grid() -> None:
+    for name, entry in STUDIES.items():
+        assert set(entry.options) - {"methods"} == set(load(name).axes)

@@ -1,0 +1,310 @@
+"""Measures of the studies on made-up records with closed-form answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from records import TROT, outputs, synthetic_record
+
+from apnc.loop.record import End, Record
+from apnc.studies import steering
+from apnc.studies.contact.measure import Trot, chatter, errors, touch_down
+from apnc.studies.engine import measured
+from apnc.studies.rows import Row
+from apnc.studies.states.measure import as_paper_says, judge, measure
+from apnc.studies.states.timeline import TIMELINE, Timeline
+
+Array = NDArray[np.float64]
+PRONK = (0.0, 0.0, 0.0)
+
+# --- S1 to S3 ----------------------------------------------------------------------------------
+
+
+def states_record(
+    phases: Sequence[tuple[float, Sequence[float]]] = ((0.0, TROT),),
+    speeds: Sequence[tuple[float, float]] = ((0.0, 0.1),),
+    *,
+    method: str = "apnc",
+    stops: Sequence[tuple[float, float, int]] = (),
+    stored: float = 6.0,
+    duration: float = TIMELINE.end,
+) -> Record:
+    """A run whose phases and speed change in steps, whose oscillators (begin, end, leg) stop."""
+    base = synthetic_record(duration)
+    t = base.time
+    lead = np.zeros((len(t), 4))
+    speed = np.zeros(len(t))
+    for start, values in phases:
+        lead[t >= start, 1:] = values
+    for start, value in speeds:
+        speed[t >= start] = value
+    o1, o2 = outputs(2 * np.pi * 1.4 * t[:, None] + lead)
+    for begin, end, leg in stops:
+        inside = (t >= begin) & (t < end)
+        o1[inside, leg], o2[inside, leg] = 0.3, 0.1
+    position = np.column_stack([np.cumsum(speed) / 60.0, 0 * t, 0 * t + 0.148])
+    experiment = replace(TIMELINE.experiment(method, 0), duration=duration)
+    return replace(
+        base,
+        experiment=experiment,
+        plant={**base.plant, "position": position},
+        controller={**base.controller, "o1": o1, "o2": o2, "kappa": 1.0 * (t >= stored)},
+    )
+
+
+def test_a_trot_all_along_is_as_the_paper_says_with_couplings() -> None:
+    row = measure(states_record())
+    assert row["state_formed"] and row["state_kept"] and row["state_recovered"]
+    assert not row["state_front_stopped"] and not row["state_in_phase"] and not row["state_fell"]
+    assert (row["state_S1"], row["state_S2"], row["state_S3"]) == (True, True, True)
+    assert row["state_formation_time_s"] == pytest.approx(0.0, abs=1 / 60)
+    assert row["state_recovery_time_s"] == pytest.approx(0.0, abs=1 / 60)
+    assert row["state_stored_at_s"] == pytest.approx(6.0)
+
+
+def test_times_count_from_the_set_down_and_the_restart() -> None:
+    record = states_record(((0.0, PRONK), (5.0, TROT), (20.0, PRONK), (26.0, TROT)))
+    found = judge(record)
+    # the phases are smoothed over 1.5 s
+    assert found["formation_time_s"] == pytest.approx(5.0 - 1.7, abs=0.8)
+    assert found["recovery_time_s"] == pytest.approx(26.0 - 24.0, abs=0.8)
+
+
+def test_a_gait_that_does_not_last_to_the_break_has_not_formed() -> None:
+    found = judge(states_record(((0.0, TROT), (13.5, PRONK), (14.0, TROT))))
+    assert not found["formed"] and found["formation_time_s"] is None
+    assert found["recovered"]
+
+
+def test_s2_is_kept_at_every_moment() -> None:
+    assert judge(states_record())["kept"]
+    lost = judge(states_record(((0.0, TROT), (16.0, PRONK), (18.0, TROT))))
+    assert not lost["kept"] and lost["formed"] and lost["recovered"]
+    before = judge(states_record(((0.0, TROT), (10.0, PRONK), (12.0, TROT))))
+    assert before["kept"]
+
+
+def test_front_oscillators_have_two_seconds_to_stop() -> None:
+    front = [(16.0, 20.0, 0), (16.0, 20.0, 2)]
+    assert judge(states_record(stops=front))["front_stopped"]
+    assert not judge(states_record(stops=front[:1]))["front_stopped"]
+    late = [(17.0, 20.0, 0), (17.0, 20.0, 2)]
+    assert not judge(states_record(stops=late))["front_stopped"]
+    hind = [(16.0, 20.0, 1), (16.0, 20.0, 3)]
+    assert not judge(states_record(stops=hind))["front_stopped"]
+
+
+def test_in_phase_is_the_last_second() -> None:
+    assert judge(states_record(((0.0, TROT), (30.0, PRONK))))["in_phase"]
+    assert not judge(states_record())["in_phase"]
+    assert not judge(states_record(((0.0, PRONK), (33.2, TROT))))["in_phase"]
+
+
+def test_speeds_are_those_of_the_last_three_seconds_of_each_state() -> None:
+    steps = ((0.0, 0.5), (10.0, 0.1), (14.7, 0.5), (16.2, 0.2), (20.7, 0.5), (30.2, 0.3))
+    found = judge(states_record(speeds=steps))
+    speeds = [found[f"speed_s{i}"] for i in (1, 2, 3)]
+    assert speeds == pytest.approx([0.1, 0.2, 0.3], abs=0.01)
+
+
+def test_never_stored() -> None:
+    assert judge(states_record(stored=99.0))["stored_at_s"] is None
+
+
+BASE: Row = {
+    "formed": True,
+    "kept": True,
+    "front_stopped": True,
+    "recovered": True,
+    "in_phase": True,
+    "speed_s2": 0.03,
+    "speed_s3": 0.01,
+}
+
+
+@pytest.mark.parametrize(
+    ("method", "changed", "expected"),
+    [
+        ("apnc", {"speed_s3": 0.03}, (True, True, True)),
+        ("apnc", {"speed_s3": 0.03, "formed": False}, (False, True, True)),
+        ("apnc", {"speed_s3": 0.03, "kept": False}, (True, False, True)),
+        ("apnc", {"speed_s3": 0.03, "speed_s2": 0.029}, (True, False, True)),
+        ("apnc", {"speed_s3": 0.03, "recovered": False}, (True, True, False)),
+        ("apnc", {"speed_s3": 0.029}, (True, True, False)),
+        ("apc", {}, (True, True, True)),
+        ("apc", {"formed": False}, (False, True, True)),
+        ("apc", {"front_stopped": False}, (True, False, True)),
+        ("apc", {"in_phase": False}, (True, True, False)),
+        ("apc", {"speed_s3": 0.011}, (True, True, False)),
+        ("apc", {"speed_s3": -0.011}, (True, True, False)),
+    ],
+)
+def test_as_the_paper_says(method: str, changed: Row, expected: tuple[bool, ...]) -> None:
+    found = as_paper_says(BASE | changed, method)
+    assert (found["S1"], found["S2"], found["S3"]) == expected
+
+
+@pytest.mark.parametrize("end", [End.fell, End.diverged, End.interrupted])
+def test_a_run_that_ended_early_went_as_nothing_in_the_paper(end: End) -> None:
+    record = replace(states_record(duration=10.0), end=end)
+    record = replace(record, experiment=TIMELINE.experiment("apnc", 0))
+    assert measure(record) == {
+        "state_S1": False,
+        "state_S2": False,
+        "state_S3": False,
+        "state_fell": end is End.fell,
+    }
+
+
+def test_a_shorter_run_is_none_of_the_states() -> None:
+    assert measure(states_record(duration=20.0))["state_S1"] is False
+
+
+def test_without_couplings_the_method_decides() -> None:
+    assert measure(states_record(method="apc"))["state_S2"] is False
+
+
+@pytest.mark.parametrize(
+    "times",
+    [{"lowered": -1.0}, {"broken": 1.0}, {"stopped": 14.0}, {"restarted": 1.0}, {"end": 24.0}],
+)
+def test_times_must_follow_each_other(times: dict[str, float]) -> None:
+    with pytest.raises(ValueError, match="do not follow each other"):
+        Timeline(**times)
+
+
+def test_a_robot_may_stand_from_the_start() -> None:
+    experiment = Timeline(0.0, 3.0, 8.0, 9.0, 14.0).experiment("apnc", 0)
+    assert experiment.conditions == ((0.0, "C1"), (3.0, "S2"), (8.0, "S3"))
+
+
+# --- courses -----------------------------------------------------------------------------------
+
+
+def on_course(course: str, plant: dict[str, Any], ended: float = 60.0) -> Record:
+    base = synthetic_record(ended)
+    experiment = steering.experiment("apnc", 0, course)
+    end = End.complete if ended == 60.0 else End.fell
+    return replace(base, experiment=experiment, plant={**base.plant, **plant}, end=end)
+
+
+def test_yaw_rate_is_that_of_each_section_after_five_seconds() -> None:
+    t = synthetic_record(60.0).time
+    rate = np.select([t < 25, t < 35, t < 40, t < 50, t < 55], [0.0, -0.2, 9.0, 0.3, 9.0], 0.1)
+    yaw = np.cumsum(rate) / 60.0
+    rpy = np.column_stack([0 * t, 0 * t, np.angle(np.exp(1j * yaw))])
+    row = steering.measure(on_course("turns", {"rpy": rpy}))
+    found = [row[f"yaw_rate_section_{i}"] for i in (1, 2, 3, 4)]
+    assert found == pytest.approx([0.0, -0.2, 0.3, 0.1], rel=0.01)
+    assert len(row) == 4
+
+
+def test_speed_is_that_of_each_section_after_five_seconds() -> None:
+    t = synthetic_record(60.0).time
+    speed = np.select([t < 5, t < 25, t < 30, t < 40, t < 45], [9.0, 0.08, 9.0, 0.16, 9.0], 0.1)
+    way = np.cumsum(speed) / 60.0
+    position = np.column_stack([0.6 * way, 0.8 * way, 5 * np.sin(t)])
+    row = steering.measure(on_course("speeds", {"position": position}))
+    found = [row[f"speed_section_{i}"] for i in (1, 2, 3)]
+    assert found == pytest.approx([0.08, 0.16, 0.1], rel=0.01)
+    assert len(row) == 3
+
+
+def test_a_section_not_walked_to_its_end_has_no_speed() -> None:
+    row = steering.measure(on_course("speeds", {}, ended=39.0))
+    assert row["speed_section_1"] == pytest.approx(0.08, rel=0.01)
+    assert row["speed_section_2"] is None and row["speed_section_3"] is None
+    row = steering.measure(on_course("turns", {}, ended=1.0))
+    assert set(row.values()) == {None}
+
+
+# --- contact -----------------------------------------------------------------------------------
+
+
+def test_chatter_is_the_share_of_loaded_steps_that_turn_round() -> None:
+    forces = np.zeros((102, 1, 3))
+    forces[:, 0, 2] = 5.0
+    assert chatter(forces) == 0.0
+    forces[::2, 0, 0] = 1.0
+    assert chatter(forces) == 1.0
+    forces[:, 0, 0], forces[::2, 0, 1] = 0.0, 0.09  # too small
+    assert chatter(forces) == 0.0
+    forces[::2, 0, 1] = -1.0
+    assert chatter(forces) == 1.0
+    forces[51:, 0, 2] = 0.9  # hardly loaded
+    forces[:51, 0, 1] = 0.0
+    assert chatter(forces) == 0.0
+
+
+def test_a_force_that_turns_once_does_not_chatter() -> None:
+    forces = np.zeros((100, 1, 3))
+    forces[:, 0, 2] = 5.0
+    forces[50:, 0, 0] = 1.0
+    assert chatter(forces) == 0.0
+
+
+def trot_of(vertical: Array, place: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Trot:
+    forces = np.zeros((*vertical.shape, 3))
+    forces[..., 2] = vertical
+    return Trot(forces, np.array(place))
+
+
+def test_errors_are_relative_to_the_finest_step() -> None:
+    ticks, legs = 120, 4
+    fine = np.full((ticks * 256, legs), 10.0)
+    coarse = np.full((ticks * 16, legs), 11.0)
+    found = errors(trot_of(coarse, (0.0, 3e-3, 4e-3)), trot_of(fine))
+    assert found["force_error"] == pytest.approx(0.1)
+    assert found["tick_force_error"] == pytest.approx(0.1)
+    assert found["peak_N"] == 11.0
+    assert found["distance_error_mm"] == pytest.approx(5.0)
+    assert found["chatter"] == 0.0
+
+
+def test_errors_compare_at_the_ends_of_the_coarsest_steps() -> None:
+    ticks = 120
+    own = np.full((ticks, 16, 1), 10.0)
+    own[:, 0::2] = 14.0  # at the beginning of each of the eight steps, not at its end
+    fine = np.full((ticks * 256, 1), 10.0)
+    found = errors(trot_of(own.reshape(-1, 1)), trot_of(fine))
+    assert found["force_error"] == 0.0
+    assert found["tick_force_error"] == pytest.approx(0.2)  # the mean is 12
+
+
+def test_touch_down_is_the_first_rise_from_zero() -> None:
+    force = np.zeros((400, 2))
+    force[:50, 0], force[100:200, 0], force[10:, 1] = 5.0, 7.0, 9.0
+    time, shown = touch_down(trot_of(force), 32)
+    assert len(time) == len(shown) == 8 + 64
+    assert time[8] == 0.0 and shown[8] == 0.0 and shown[9] == 7.0
+    assert time[9] == pytest.approx(1e3 / 60 / 32)
+
+
+# --- rows --------------------------------------------------------------------------------------
+
+
+def test_a_row_has_the_summary_and_how_the_run_ended() -> None:
+    row = measured("mi", synthetic_record(20.0))
+    assert row["converged"] is True and row["convergence_time_s"] == pytest.approx(0.0, abs=0.1)
+    assert row["phi_final_12"] == pytest.approx(np.pi, abs=0.01)
+    assert row["phi_final_14"] == pytest.approx(0.0, abs=0.01)
+    # the half-sine load is above a tenth of its peak for this share of a stance of 0.6
+    share = 1.0 - 2.0 * np.arcsin(0.1) / np.pi
+    assert row["duty_factor_mean"] == pytest.approx(0.6 * share, abs=0.01)
+    assert row["stride_frequency_hz"] == pytest.approx(1.4, rel=0.01)
+    assert (row["end"], row["error"], row["ended_at_s"]) == ("complete", "", 20.0)
+    assert not set(row) & {"method", "seed", "mi", "duration_s", "message", "real_time_factor"}
+    assert not any(isinstance(value, dict | tuple | list) for value in row.values())
+
+
+def test_a_fall_and_a_divergence_are_told_in_the_row() -> None:
+    fell = measured("mi", replace(synthetic_record(20.0), end=End.fell))
+    assert fell["end"] == "fell" and fell["fell"] is True and fell["error"] == ""
+    assert fell["convergence_time_s"] is None
+    broken = replace(synthetic_record(5.0), end=End.diverged, message="it diverged")
+    assert measured("mi", broken)["error"] == "it diverged"

@@ -1,0 +1,143 @@
+"""The report of a study: what was asked for, what was run, what failed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from browser import console_lines, look, needs_browser
+from records import synthetic_record
+
+from apnc.studies import engine, report
+from apnc.studies.engine import grid_of
+from apnc.studies.rows import AUTHORS, STRICT, Row
+from apnc.studies.states.figures import over_time
+from apnc.studies.study import Trial
+
+
+def rows_of(grid: list[Trial]) -> list[Row]:
+    """Rows of trials that nobody ran: APNC converges first."""
+    figures = {"duty_factor_mean": 0.6, "stride_frequency_hz": 1.5, "path_speed_m_per_s": 0.1}
+    end = {"fell": False, "version": "9.9", "end": "complete", "error": ""}
+    times = {"apnc": 2.0, "tegotae": 9.0}
+    return [
+        {"study": t.study, "key": t.place[1], **t.cell, **figures, **end}
+        | {STRICT: times.get(t.cell["method"], 20.0), AUTHORS: 1.0}
+        for t in grid
+    ]
+
+
+def write(tmp_path: Path, grid: list[Trial], rows: list[Row]) -> str:
+    for name, put in report.files_of(grid, rows, 90.0, scenes=False).items():
+        put(tmp_path / name)
+    return (tmp_path / "report.html").read_text()
+
+
+@pytest.fixture(scope="module")
+def grid() -> list[Trial]:
+    return grid_of("mi", 6, chosen={"mi": [0.08, 0.16, 0.24]})
+
+
+def test_the_head_says_what_was_run(tmp_path: Path, grid: list[Trial]) -> None:
+    page = write(tmp_path, grid, rows_of(grid))
+    for text in (
+        "lilibot",
+        "45 s",
+        "Fig. 4, S4, S5",
+        "APNC, APC alone, Tegotae, phase resetting",
+        "72 of 72",
+        "within 0.6 rad of the trot",
+        "first below 2.8 rad",
+        "72, 3240 s simulated in 1.5 min",
+        "9.9, commit ",
+    ):
+        assert text in page, text
+    assert "not run" not in page and "did not come to their end" not in page
+
+
+def test_the_report_shows_claims(tmp_path: Path, grid: list[Trial]) -> None:
+    page = write(tmp_path, grid, rows_of(grid))
+    assert '<td class="reproduced">reproduced</td>' in page
+    text = (tmp_path / "claims.md").read_text()
+    line = next(line for line in text.splitlines() if "APNC converges faster than Tegotae" in line)
+    assert line.startswith(
+        "| APNC converges faster than Tegotae | 3.1.1, Fig. 4 | strict: median 2.0"
+    )
+    assert line.endswith(" | **reproduced** |")
+    assert "- apnc: 9.9, commit " in text
+    assert (tmp_path / "mi.md").read_text().startswith("| method | MI | trot kept, strict")
+
+
+def test_a_method_that_was_not_run_is_said(tmp_path: Path) -> None:
+    few = grid_of("mi", 1, ["apnc", "tegotae"], {"mi": [0.08]})
+    page = write(tmp_path, few, rows_of(few))
+    assert "APNC, Tegotae; not run: APC alone, phase resetting" in page
+    assert "not run: phase_reset" in page  # the claim on it
+
+
+def test_trials_that_failed_are_listed_with_their_command(
+    tmp_path: Path, grid: list[Trial]
+) -> None:
+    rows = rows_of(grid)
+    rows[0] |= {"end": "fell", "fell": True}
+    rows[1] |= {"end": "error", "error": "FmuError: <moo>"}
+    page = write(tmp_path, grid, rows)
+    assert "2 trials did not come to their end" in page
+    first, second = (trial.experiment.command() for trial in grid[:2])
+    assert f"<li>fell: <code>{first}</code></li>" in page
+    assert f"<li>FmuError: &lt;moo&gt;: <code>{second}</code></li>" in page
+
+
+def test_a_page_needs_nothing_from_elsewhere(tmp_path: Path, grid: list[Trial]) -> None:
+    page = write(tmp_path, grid, rows_of(grid))
+    assert "default-src 'none'" in page and "<script src" not in page
+
+
+def test_a_stopped_study_with_no_row_has_a_report(tmp_path: Path, grid: list[Trial]) -> None:
+    assert "0, 0 s simulated" in write(tmp_path, grid, [])
+    assert (tmp_path / "trials.csv").read_text() == "\n"
+
+
+def test_scenes_are_drawn_when_all_is_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trials = grid_of("damage", 1)
+    study = engine.load("damage")
+    asked: list[bool] = []
+    object.__setattr__(study, "scenes", lambda: asked.append(True) or [])
+    try:
+        report.files_of(trials, rows_of(trials), 1.0, scenes=False)
+        assert asked == []
+        report.files_of(trials, rows_of(trials), 1.0, scenes=True)
+        assert asked == [True]
+    finally:
+        object.__setattr__(study, "scenes", lambda: [])
+
+
+def test_a_run_through_the_states_is_shown_over_time() -> None:
+    figures = over_time(synthetic_record(34.0), "with ANC")
+    assert {figure.key for figure in figures} == {
+        "states-cpg-apnc",
+        "states-phi-apnc",
+        "states-gait-apnc",
+    }
+    for figure in figures:
+        assert not figure.over_time and all("x" in trace for trace in figure.data)
+        assert figure.title.endswith(", with ANC")
+        labels = [(note["text"], note["x"]) for note in figure.layout["annotations"]]
+        assert labels == [
+            ("S1", 7.85),
+            ("S2: RF, LF stuck at 0.9", 17.0),
+            ("MI = 0", 22.0),
+            ("S3: no feedback", 29.0),
+        ]
+
+
+@needs_browser
+def test_a_report_draws_in_a_browser(tmp_path: Path, grid: list[Trial]) -> None:
+    write(tmp_path, grid, rows_of(grid))
+    seen, log = look(tmp_path / "report.html", tmp_path)
+    assert seen["errors"] == [] and console_lines(log) == []
+    keys = (STRICT, AUTHORS, "duty_factor_mean", "path_speed_m_per_s")
+    assert set(seen["plots"]) == {f"plot-mi-{key}" for key in keys}
+    assert all(drawn > 0 for drawn in seen["plots"].values())

@@ -1,0 +1,103 @@
+"""The search: knobs, and costs of made-up walks with closed-form answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from records import TROT, synthetic_record
+
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
+from apnc.loop.simulate import simulate
+from apnc.studies.search.__main__ import search
+from apnc.studies.search.costs import (
+    TURNING,
+    blocked_cost,
+    damage_cost,
+    formation_cost,
+    walking_cost,
+)
+from apnc.studies.search.knobs import KNOBS, built_robot, gains
+from apnc.studies.search.stuck_sensor import StuckSensor
+
+
+def test_knobs_reach_their_ends_and_their_start() -> None:
+    for knob in KNOBS:
+        assert knob.value(0.0) == pytest.approx(knob.low)
+        assert knob.value(1.0) == pytest.approx(knob.high)
+        assert knob.value(knob.place(knob.start)) == pytest.approx(knob.start)
+
+
+def test_a_candidate_is_a_robot_and_gains() -> None:
+    candidate = {"a1": 0.2, "trunk.com_z": 0.003, "trunk.com_x": 0.01, "servo.damping": 0.5}
+    robot = built_robot(candidate)
+    assert robot.trunk.body.com[0] == 0.01 and robot.trunk.body.com[2] == 0.003
+    assert robot.servo.damping == 0.5
+    assert gains(candidate) == {"a1": 0.2}
+    Experiment(settings=gains({knob.name: knob.start for knob in KNOBS}))  # all are parameters
+
+
+def walk(phases: Sequence[float] = TROT, speed: float = 0.1) -> Record:
+    return synthetic_record(11.0, phases, speed=speed)
+
+
+def test_an_exact_trot_at_the_speed_asked_for_costs_nothing() -> None:
+    assert formation_cost(walk(), 0.1) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_another_gait_costs_its_distance() -> None:
+    # all of the time pi from the trot: 2 x 1, and 1.5 x the limit of 1.5
+    assert formation_cost(walk((0.0, 0.0, 0.0)), 0.1) == pytest.approx(2.0 + 1.5 * 1.5, abs=0.01)
+
+
+def test_feet_that_hardly_lift_cost() -> None:
+    record = walk()
+    feet = record.plant["foot_position"].copy()
+    feet[..., 2] = 0.0
+    flat = replace(record, plant={**record.plant, "foot_position": feet})
+    assert formation_cost(flat, 0.1) == pytest.approx(0.5)
+
+
+def test_a_slow_walk_and_a_curve_cost() -> None:
+    assert walking_cost(walk(speed=0.08), 0.1) == pytest.approx(0.02 / 0.05, rel=0.01)
+    assert walking_cost(walk(speed=-0.2), 0.1) == pytest.approx(1.0)
+    record = walk()
+    rpy = record.plant["rpy"].copy()
+    rpy[-240:, 2] = np.linspace(0.0, 0.4, 240)
+    turned = replace(record, plant={**record.plant, "rpy": rpy})
+    assert walking_cost(turned, -1.0) == pytest.approx(0.75 * 0.4)
+
+
+def test_stopped_oscillators_cost_half_each() -> None:
+    record = walk()
+    o1 = record.controller["o1"].copy()
+    o1[:, :2] = 0.3
+    stopped = replace(record, controller={**record.controller, "o1": o1})
+    assert damage_cost(stopped, 0.0) - damage_cost(record, 0.0) == pytest.approx(1.0)
+
+
+def test_turning_goes_left_and_then_right() -> None:
+    assert Experiment(**TURNING).turn == ((0.0, 0.0), (3.0, 1.0), (7.5, -1.0))
+
+
+def test_the_stuck_sensor_sticks_after_its_ticks() -> None:
+    experiment = Experiment(method="apc", duration=0.2)
+    plant = StuckSensor(experiment.description, ticks=5)
+    record = simulate(experiment, plant=plant)
+    load = 0.9 * experiment.description.weight / 2.0
+    assert record.controller["grf"][:, 0] == pytest.approx([0.0] * 6 + [load] * 6)
+
+
+def test_a_stuck_load_stops_an_oscillator_that_learns_and_not_one_that_does_not() -> None:
+    assert blocked_cost({}) == 0.0
+    assert blocked_cost({"B_f": 0.0, "B_s": 0.0}) == pytest.approx(0.2 + 0.5 * 2.0, abs=0.2)
+
+
+def test_without_cma_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "cma", None)
+    with pytest.raises(RuntimeError, match=r"apnc\[search\]"):
+        search(tmp_path)

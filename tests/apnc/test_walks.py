@@ -1,0 +1,85 @@
+"""The shipped robot and gains walk as they must: with payload, with a damaged leg, from memory."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from apnc import metrics
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
+from apnc.loop.simulate import simulate
+from apnc.studies.states.measure import measure
+from apnc.studies.states.timeline import TIMELINE
+from apnc.summary import Summary, summarise
+
+
+def walked(**fields: Any) -> tuple[Record, Summary]:
+    record = simulate(Experiment(**{"duration": 20.0} | fields))
+    return record, summarise(record)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_default_walk_forms_a_trot_and_keeps_it(seed: int) -> None:
+    record, summary = walked(seed=seed)
+    assert summary.converged and not summary.fell
+    assert summary.convergence_time_s is not None and summary.convergence_time_s < 9.0
+    assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.03
+    # what is stored is the trot rather than pace, bound or legs in phase, if not to the last tenth,
+    c = record.controller
+    assert (c["kappa"] > 0.0).any()
+    trot = np.array(metrics.GAITS[4]["trot"])
+    assert np.abs(metrics.wrap(c["phi_memory"][-1] - trot)).max() < np.pi / 4
+    # and the couplings draw the gait nearer to the trot than what they hold
+    assert metrics.phase_error(c["o1"], c["o2"], trot)[-300:].max() < 0.3
+
+
+def test_trot_forms_under_the_payload() -> None:
+    _, summary = walked(mi=0.15, conditions="C4")
+    assert summary.converged and not summary.fell
+    assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.06
+
+
+def test_without_the_limit_of_loads_the_payload_changes_the_feedback() -> None:
+    """F_max acts where the load exceeds half the weight, which is in every step under payload."""
+    fields = {"mi": 0.15, "duration": 6.0, "conditions": "C4"}
+    limited, free = (walked(**fields, settings=s)[0] for s in ({}, {"F_max": 100.0}))
+    assert free.controller["gamma"].mean() > 1.2 * limited.controller["gamma"].mean()
+
+
+@pytest.mark.parametrize("mi", [0.08, 0.15])
+def test_walks_with_leg_rf_held_still(mi: float) -> None:
+    record, summary = walked(mi=mi, conditions="C3")
+    assert not summary.fell
+    assert summary.path_speed_m_per_s is not None and summary.path_speed_m_per_s > 0.03
+    assert np.ptp(record.controller["o1"][-240:], axis=0).min() > 1.0  # none has stopped
+    assert np.ptp(record.plant["joint_angle"][-240:, 0, 1:], axis=0).max() < 0.1
+
+
+def test_without_load_feedback_no_trot_forms() -> None:
+    """The criterion tells a trot from four legs in phase: the learners off, nothing forms."""
+    _, summary = walked(method="apc", duration=12.0, settings={"B_f": 0.0, "B_s": 0.0})
+    assert summary.converged is False
+    assert summary.convergence_time_authors_s is None
+
+
+@pytest.mark.parametrize("method", ["apnc", "apc"])
+def test_the_states_go_as_in_the_paper(method: str) -> None:
+    record = simulate(TIMELINE.experiment(method, 1))
+    row = measure(record)
+    assert row["state_S1"] and row["state_S2"] and row["state_S3"]
+    assert row["state_fell"] is False
+    if method == "apc":
+        assert row["state_speed_s2"] < 0.05
+    # what happened to the robot is what the timeline says
+    force, t = record.plant["foot_force"][..., 2], record.time
+    assert np.all(force[t < 1.69] == 0.0) and force[(t > 2.0) & (t < 14.0)].mean() > 1.0
+    half = record.robot.weight / 2.0
+    stuck = record.plant["grf"][(t > 14.05) & (t < 20.0)]
+    assert np.allclose(stuck[:, [0, 2]], 0.9 * half) and not np.allclose(stuck[:, 1], stuck[0, 1])
+    assert np.all(record.plant["grf"][t > 20.05] == 0.0)
+    stopped = (t > 20.0 - 1e-9) & (t < 24.0 - 1e-9)
+    assert np.all(record.controller["MI"][stopped] == 0.0)
+    assert np.all(record.controller["MI"][~stopped] == 0.15)
