@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from apnc_core.schema import Causality, Shape, Type, Value, Variable
 from apnc_core.variables import TABLE, Scalar, row, scalars
+from build_fmu.platforms import BuildError, library_of, why_not_loaded
 from exudyn_models.trace import Trace
 
 Array = NDArray[np.float64]
@@ -104,15 +105,21 @@ class FmuController:
 
     def _instantiate(self, path: Path | str, description: Any) -> None:
         fmpy.extract(str(path), unzipdir=self._folder)
+        folder = Path(self._folder)
+        try:
+            library = library_of(folder)
+        except BuildError as error:
+            raise FmuError(f"{path}: {error}") from None
         try:
             self._fmu = fmi2.FMU2Slave(
                 guid=description.guid,
                 unzipDirectory=self._folder,
                 modelIdentifier=description.coSimulation.modelIdentifier,
                 instanceName="controller",
+                libraryPath=str(library),
             )
         except Exception as error:
-            raise FmuError(f"{path}: its binary for this machine does not load: {error}") from error
+            raise FmuError(f"{path}: {why_not_loaded(error, folder)}") from error
         self._callbacks = fmi2.fmi2CallbackFunctions()
         self._callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(self._log)
         try:
