@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import shutil
 import tempfile
@@ -111,13 +112,14 @@ class FmuController:
         except BuildError as error:
             raise FmuError(f"{path}: {error}") from None
         try:
-            self._fmu = fmi2.FMU2Slave(
-                guid=description.guid,
-                unzipDirectory=self._folder,
-                modelIdentifier=description.coSimulation.modelIdentifier,
-                instanceName="controller",
-                libraryPath=str(library),
-            )
+            with contextlib.chdir(Path.cwd()):  # FMPy goes elsewhere to load, and stays if it fails
+                self._fmu = fmi2.FMU2Slave(
+                    guid=description.guid,
+                    unzipDirectory=self._folder,
+                    modelIdentifier=description.coSimulation.modelIdentifier,
+                    instanceName="controller",
+                    libraryPath=str(library),
+                )
         except Exception as error:
             raise FmuError(f"{path}: {why_not_loaded(error, folder)}") from error
         self._callbacks = fmi2.fmi2CallbackFunctions()
