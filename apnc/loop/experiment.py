@@ -22,7 +22,7 @@ from apnc_core.schema import Causality, Value
 from apnc_core.settings import checked
 from apnc_core.variables import row, rows
 from exudyn_models.conditions import CONDITIONS, Conditions, named_conditions
-from exudyn_models.ground import Plane, Surface
+from exudyn_models.ground import Plane, Surface, from_dict
 from exudyn_models.physics.options import PlantOptions
 from exudyn_models.robot import RobotDescription, load_robot
 
@@ -184,6 +184,26 @@ class Experiment:
         plain: dict[str, Any] = _plain(values)
         return plain
 
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Experiment:
+        """The experiment that :meth:`to_dict` gave, also after a way through JSON.
+
+        Raises:
+            ValueError: not such data, or a robot that was given as an object.
+        """
+        values = dict(data)
+        if isinstance(values.get("robot"), Mapping):
+            raise ValueError("the robot was given as an object; allowed here: its name or file")
+        try:
+            values["ground"] = from_dict(values["ground"])
+            for name in ("mi", "turn", "reset", "conditions"):
+                whole, entry = not isinstance(values[name], list | tuple), values[name]
+                steps = tuple((start, _read(value)) for start, value in steps_of(entry))
+                values[name] = _read(entry) if whole else steps
+            return cls(**values)
+        except (KeyError, TypeError) as error:
+            raise ValueError(f"not an experiment: {error}") from None
+
     def key(self) -> str:
         """Hash of all that a run depends on: robot, parameters, package version; 16 hex digits."""
         content = {
@@ -227,6 +247,14 @@ def conditions_of(value: str | Conditions) -> Conditions:
     if isinstance(value, Conditions):
         return value
     return named_conditions(value)
+
+
+def _read(value: Any) -> Any:
+    """A value at a time of plain data: conditions are a table there."""
+    if not isinstance(value, Mapping):
+        return value
+    plain: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in value.items()}
+    return Conditions(**plain)
 
 
 def _name_of(value: str | Conditions) -> str:

@@ -253,3 +253,47 @@ def test_a_gait_is_kept_shown_and_walked_with(
         again = json.loads(Path("apnc-walk/summary.json").read_text())
         assert again["parameters"]["phi_stored"] == [3.1, 3.2, 0.1]
         assert again["parameters"]["stored"] is True
+
+
+def test_a_release_is_wired(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def release(folder: Path, progress: object) -> list[Path]:
+        return [folder / "one.fmu", folder / "SHA256SUMS"]
+
+    monkeypatch.setattr("build_fmu.release.release", release)
+    code, out, _ = run(capsys, "build", "--release", str(tmp_path / "files"))
+    assert (code, out) == (0, f"{tmp_path / 'files'}: one.fmu, SHA256SUMS\n")
+    assert (tmp_path / "files").is_dir()
+
+
+def test_a_study_is_written_and_resumed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    words = ("study", "mi", "--mi", "0.1, 0.2", "--methods", "apnc", "--duration", "1")
+    more = ("--trials", "1", "--workers", "1", "--series")
+    code, out, err = run(capsys, *words, *more)
+    assert code == 0, err
+    assert out == "2 trials, 0 ended with an error; report: apnc-study-mi/report.html\n"
+    folder = tmp_path / "apnc-study-mi"
+    rows = [json.loads(line) for line in (folder / "trials.jsonl").read_text().splitlines()]
+    assert [(row["mi"], row["duration"], row["method"]) for row in rows] == [
+        (0.1, 1.0, "apnc"),
+        (0.2, 1.0, "apnc"),
+    ]
+    assert len(list((folder / "series").iterdir())) == 2
+    assert "holds trials already; --resume continues them" in run(capsys, *words, *more)[2]
+    before = (folder / "trials.jsonl").read_bytes()
+    assert run(capsys, *words, *more, "--resume")[0] == 0
+    assert (folder / "trials.jsonl").read_bytes() == before
+
+
+def test_a_trial_that_ends_with_an_error_has_its_code(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rows = [{"end": "fell", "error": ""}, {"end": "error", "error": "x"}]
+    monkeypatch.setattr("apnc.studies.engine.run_study", lambda *_, **__: rows)
+    code, out, _ = run(capsys, "study", "rate", "--output", str(tmp_path))
+    assert code == 1
+    assert out.startswith("2 trials, 1 ended with an error")

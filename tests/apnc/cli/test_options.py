@@ -83,6 +83,7 @@ def test_the_command_of_an_experiment_says_it_again(experiment: Experiment) -> N
     name, command, *words = shlex.split(experiment.command())
     assert (name, command) == ("apnc", "walk")
     assert said(*words) == experiment
+    assert Experiment.from_dict(json.loads(json.dumps(experiment.to_dict()))) == experiment
 
 
 @pytest.mark.parametrize("robot", ["hexapod", "own.toml"])

@@ -146,3 +146,25 @@ def test_what_was_run_is_plain_json(change: dict[str, Any]) -> None:
 
 def test_conditions_of_the_paper_have_their_name_in_the_command() -> None:
     assert Experiment(conditions=Conditions(payload=1.25)).command().endswith("--condition C4")
+
+
+def test_conditions_come_back_from_plain_data() -> None:
+    own = Conditions(payload=0.0, damaged=("RF",), stuck={"LF": 0.5}, dropout=("*",))
+    for conditions in (own, ((0.0, "C1"), (2.0, own))):
+        experiment = Experiment(conditions=conditions)
+        assert Experiment.from_dict(json.loads(json.dumps(experiment.to_dict()))) == experiment
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"robot": {"name": "x"}}, "the robot was given as an object"),
+        ({"cow": 1}, "not an experiment: "),
+        ({"mi": [0.1, 0.2]}, "not an experiment: "),
+        ({"conditions": {"cow": 1}}, "not an experiment: "),
+        ({"ground": {"kind": "moon"}}, "ground 'moon' is not one of"),
+    ],
+)
+def test_other_data_is_no_experiment(change: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(words)):
+        Experiment.from_dict(Experiment().to_dict() | change)
