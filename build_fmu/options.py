@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import Any, Final
+from typing import Final
 
+from apnc_core import settings
 from apnc_core.interface import Parameters
 from apnc_core.presets import PRESETS, preset
-from apnc_core.schema import MAX_LEGS, Causality, Shape, Type, Value, Variable
-from apnc_core.variables import TABLE, row, rows
+from apnc_core.schema import MAX_LEGS, Causality, Value, Variable
+from apnc_core.variables import TABLE, row
 from build_fmu.platforms import MODEL, PLATFORMS, BuildError, Platform, host_platform
 
 __all__ = ["MODEL", "PLATFORMS", "BuildError", "BuildOptions", "Platform", "host_platform"]
@@ -114,42 +115,13 @@ def in_words(name: str, value: Setting) -> str:
     return str(value).lower() if isinstance(value, bool) else f"{value:.6g}"
 
 
-def checked(name: str, value: Setting) -> Setting:
-    """The value in the type of its row.
+def checked(name: str, value: Setting) -> settings.Setting:
+    """The value in the type of its row, see :func:`apnc_core.settings.checked`.
 
     Raises:
         BuildError: no such parameter, or a value of another type or outside the range.
     """
-    known = {v.name: v for v in rows(Causality.parameter)}
-    if name not in known:
-        raise BuildError(f"parameter '{name}' is not one of {', '.join(known)}")
-    v = known[name]
-    if v.shape is not Shape.scalar:
-        if not isinstance(value, Sequence):
-            raise BuildError(f"{name} = {value} is not a list of numbers")
-        return tuple(float(_number(v, x)) for x in value)
-    if v.enumeration and isinstance(value, str):
-        if value not in v.enumeration.items.__members__:
-            allowed = ", ".join(v.enumeration.items.__members__)
-            raise BuildError(f"{name} = '{value}' is not one of {allowed}")
-        return v.enumeration.items[value]
-    if isinstance(value, Sequence):
-        raise BuildError(f"{name} = {value} is not one value")
-    if v.type is Type.boolean:
-        if value not in (0, 1):
-            raise BuildError(f"{name} = {value} is not true or false")
-        return bool(value)
-    return _number(v, value)
-
-
-def _number(v: Variable, value: Any) -> float | int:
-    low, high = (1, len(v.enumeration.items)) if v.enumeration else (v.min, v.max)
-    assert low is not None and high is not None
-    number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not number or not low <= value <= high:  # NaN is in no range
-        raise BuildError(f"{v.name} = {value} is not in {low:g} ... {high:g}")
-    if v.type is Type.real:
-        return float(value)
-    if value != int(value):
-        raise BuildError(f"{v.name} = {value} is not a whole number")
-    return v.enumeration.items(int(value)) if v.enumeration else int(value)
+    try:
+        return settings.checked(name, value)
+    except ValueError as error:
+        raise BuildError(str(error)) from None

@@ -46,7 +46,7 @@ def write_ssv(settings: dict[str, Setting], path: Path, naming: str = "structure
             parameter.set("name", v.scalar_name(element, naming))
             typed = etree.SubElement(parameter, f"{{{_SSV}}}{v.type.value}")
             if v.enumeration:
-                typed.set("value", v.enumeration.items(entry).name)
+                typed.set("value", v.enumeration.items(int(entry)).name)
                 typed.set("name", v.enumeration.name)
             else:
                 typed.set("value", number(entry))

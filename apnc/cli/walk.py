@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import math
 from collections.abc import Mapping
 from dataclasses import replace
@@ -71,6 +72,7 @@ def walk(
     fmu: Annotated[Text, Option(help="This FMU instead of the built one.")] = None,
     output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),
     json_file: Annotated[File, Option("--json", help="Write the summary here as well.")] = None,
+    mcap: Annotated[File, Option(help="Write an MCAP log here (Foxglove, PlotJuggler).")] = None,
 ) -> None:
     """Walk a robot under the FMU; write summary.json, record.csv and report.html.
 
@@ -81,6 +83,7 @@ def walk(
         experiment = experiment_of(context.params)
         writable(output)
         json_path = writable(json_file, file=True) if json_file else None
+        mcap_path = _log_path(mcap) if mcap else None
     with bar("walking") as show:
 
         def progress(t: float, controller: FmuController) -> None:
@@ -98,6 +101,11 @@ def walk(
     if json_path:
         text = (output / "summary.json").read_bytes()
         write_together(json_path.parent, {json_path.name: lambda path: path.write_bytes(text)})
+    if mcap_path:
+        from apnc.report.mcap_file import write_mcap
+
+        log = {mcap_path.name: lambda path: write_mcap(record, path)}
+        write_together(mcap_path.parent, log)
     show_table(rows(apnc.summarise(record)))
     say(f"report: {output}/report.html")
     why = f": {record.message}" if record.message else ""
@@ -107,6 +115,13 @@ def walk(
     if not record.complete:
         say(words, error=True)
         raise typer.Exit(ENDED_EARLY)
+
+
+def _log_path(mcap: Path) -> Path:
+    """The path of an MCAP log, before anything is computed: the extra is there, and the folder."""
+    if importlib.util.find_spec("mcap_ros2") is None:
+        raise ValueError("--mcap needs the extra 'mcap': pip install 'apnc[mcap]'")
+    return writable(mcap, file=True)
 
 
 def experiment_of(options: Mapping[str, Any]) -> Experiment:

@@ -52,17 +52,15 @@ def write_mcap(record: Record, path: Path) -> None:
         path: file to write.
 
     Raises:
-        ValueError: the extra ``mcap`` is missing.
+        ModuleNotFoundError: the extra ``mcap`` is missing.
         OSError: the file cannot be written.
 
     Topics: ``/joint_states`` and ``/joint_commands`` (JointState), ``/trunk`` (PoseStamped),
     ``/foot_force/RF`` ... (WrenchStamped, world frame), ``/apnc/phi12`` ..., ``/apnc/kappa``,
     ``/apnc/d`` (Float64). Time starts at 0.
     """
-    try:
-        from mcap_ros2.writer import Writer  # noqa: PLC0415  # an extra
-    except ImportError:
-        raise ValueError("--mcap needs the extra 'mcap': pip install 'apnc[mcap]'") from None
+    from mcap_ros2.writer import Writer  # noqa: PLC0415  # an extra
+
     with path.open("wb") as file:
         writer = Writer(file)
         schemas = {

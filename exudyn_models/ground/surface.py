@@ -168,7 +168,7 @@ class Surface(ABC):
         """Kind and fields that are not the default, as :func:`surface` reads them."""
         default = type(self)()
         words = [
-            f"{f.name}={':'.join(map(repr, value)) if isinstance(value, tuple) else repr(value)}"
+            f"{f.name}={':'.join(map(str, value)) if isinstance(value, tuple) else value}"
             for f in fields(self)
             if (value := getattr(self, f.name)) != getattr(default, f.name)
         ]
@@ -238,7 +238,7 @@ def _number(text: str) -> object:
 def _typed(name: str, kind: Any, value: Any) -> Any:
     plain = isinstance(value, int | float) and not isinstance(value, bool)
     if kind is int:
-        if plain and value == int(value):
+        if plain and math.isfinite(value) and value == int(value):
             return int(value)
         raise ValueError(f"{name} is {value!r}; allowed: a whole number")
     if kind is float:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import apnc
+from apnc.cli.main import main
 from apnc.report.mcap_file import write_mcap
 
 mcap_reader = pytest.importorskip("mcap.reader")
@@ -40,3 +41,12 @@ def test_a_walk_comes_back_from_its_log(tmp_path: Path) -> None:
     stamp = heard["/foot_force/LH"][-1][1].header.stamp
     assert stamp.sec + stamp.nanosec / 1e9 == pytest.approx(59 / 60)
     assert [m.data for _, m in heard["/apnc/phi13"]] == record.controller["phi"][:, 1].tolist()
+
+
+def test_walk_writes_a_log(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as done:
+        main(["walk", "--duration", "0.5", "--mcap", "logs/walk.mcap"])
+    assert done.value.code == 0
+    with (tmp_path / "logs" / "walk.mcap").open("rb") as file:
+        assert mcap_reader.make_reader(file).get_summary().statistics.message_count > 300
