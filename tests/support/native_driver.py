@@ -65,7 +65,15 @@ def compile_native(source: str, folder: str, scratch: Path, *flags: str) -> Path
     if not program.is_file():
         part = program.with_suffix(".part.exe")
         command = [sys.executable, "-m", "ziglang", "cc", "-target", PLATFORMS[folder].zig_target]
-        command += ["-std=c11", "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+        command += [
+            "-std=c11",
+            "-O1",
+            "-ffp-contract=off",
+            "-Wall",
+            "-Wextra",
+            "-Wpedantic",
+            "-Werror",
+        ]
         command += ["-I", str(HEADERS), str(NATIVE / source), "-o", str(part), *flags]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
