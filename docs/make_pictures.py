@@ -1,4 +1,4 @@
-"""Save every figure of an evaluation report as SVG, drawn by headless Chromium.
+"""Save every figure of a study's report as SVG, drawn by headless Chromium.
 
 python docs/make_pictures.py apnc-study-all/report.html docs/pictures
 """
@@ -34,7 +34,7 @@ window.addEventListener("load", async () => {
 
 
 def main(report: Path, folder: Path) -> None:
-    """Write ``evaluation-<figure>.svg`` files into ``folder``."""
+    """Write ``<figure>.svg`` files into ``folder``, named by the keys of the figures."""
     chromium = shutil.which("chromium") or shutil.which("chromium-browser")
     if chromium is None:
         sys.exit("no chromium binary found")
@@ -49,7 +49,7 @@ def main(report: Path, folder: Path) -> None:
         sys.exit("the report did not finish drawing")
     folder.mkdir(parents=True, exist_ok=True)
     for name, picture in json.loads(html.unescape(found[1])).items():
-        (folder / f"evaluation-{name}.svg").write_text(picture, encoding="utf-8")
+        (folder / f"{name.removeprefix('plot-')}.svg").write_text(picture, encoding="utf-8")
 
 
 if __name__ == "__main__":
