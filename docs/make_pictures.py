@@ -1,4 +1,4 @@
-"""Save every figure of an evaluation report as SVG, drawn by headless Chromium.
+"""Save every figure of a study's report as SVG, drawn by headless Chromium.
 
 python docs/make_pictures.py apnc-study-all/report.html docs/pictures
 """
@@ -55,7 +55,7 @@ def main(report: Path, folder: Path) -> None:
     drawn = pictures(report.read_text(encoding="utf-8"))
     folder.mkdir(parents=True, exist_ok=True)
     for name, picture in drawn.items():
-        (folder / f"evaluation-{name}.svg").write_text(picture, encoding="utf-8")
+        (folder / f"{name.removeprefix('plot-')}.svg").write_text(picture, encoding="utf-8")
 
 
 if __name__ == "__main__":

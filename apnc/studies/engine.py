@@ -19,7 +19,7 @@ from apnc.studies.report import files_of
 from apnc.studies.rows import Row
 from apnc.studies.store import Store
 from apnc.studies.study import Chosen, Trial
-from apnc.studies.workers import pool
+from apnc.studies.workers import pool, rows_of
 from apnc.summary import summarise
 from build_fmu.build import host_fmu
 
@@ -80,14 +80,10 @@ def run_study(
         raise ValueError("series are kept in a folder: give an output")
     if path is not None and path.exists() and not resume:
         raise ValueError(f"{path} holds trials already; --resume continues them")
-    run_on, begin = pool(workers, scheduler), time.perf_counter()
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-    for legs in {len(t.experiment.description.legs) for t in grid.values()}:
-        host_fmu(legs)  # built once here, not by every worker at the same time
-    work = partial(run_trial, series=folder / "series" if folder and series else None)
-    store, total = Store(path), sum(trial.experiment.duration for trial in grid.values())
-    try:
+    begin, total = time.perf_counter(), sum(trial.experiment.duration for trial in grid.values())
+    with pool(workers, scheduler) as executor, Store(path) as store:
+        for legs in {len(trial.experiment.description.legs) for trial in grid.values()}:
+            host_fmu(legs)  # built once here, not by every worker at the same time
         left = {at: t for at, t in grid.items() if store.rows.get(at, {}).get("error") != ""}
 
         def tell() -> None:
@@ -95,12 +91,12 @@ def run_study(
             progress(len(grid) - len(left), len(grid), total - missing, total)
 
         tell()
-        for row in run_on(list(left.values()), work, stop):
+        work = partial(run_trial, series=folder / "series" if folder and series else None)
+        at_once = len(left) if scheduler else workers
+        for row in rows_of(list(left.values()), work, executor, at_once, stop):
             store.add(row)
             del left[row["study"], row["key"]]
             tell()
-    finally:
-        store.close()
     rows = [store.rows[at] for at in grid if at in store.rows]
     if folder is not None:
         wall_s = time.perf_counter() - begin

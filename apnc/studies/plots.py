@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Final
 
 from apnc.report import theme
@@ -97,6 +98,7 @@ def convergence(rows: Sequence[Row], axis: tuple[str, str]) -> list[Figure]:
 def _convergence(rows: Sequence[Row], axis: tuple[str, str], column: str) -> Figure:
     note = f"By the {CRITERIA[column]}. Below: trials that converged; marks above: their share."
     figure = over_axis(rows, axis, column, "convergence time [s]", note)
+    figure = replace(figure, title=f"Convergence, {CRITERIA[column].split(':')[0]}")
     cells = cells_in(rows, axis[0])
     for method in methods_in(rows):
         label, colour, symbol = style(method)
@@ -122,8 +124,10 @@ def side_by_side(
 ) -> Figure:
     """Groups of numbers beside each other, each with its own colour."""
     traces = [
-        trace | {"showlegend": False, "offsetgroup": ""}
+        trace | {"showlegend": False}
         for at, (name, numbers) in enumerate(groups.items())
         for trace in spread([(name, value) for value in numbers], name, COLOURS[at % len(COLOURS)])
     ]
-    return _figure(key, title, note, traces, list(groups), "", unit)
+    figure = _figure(key, title, note, traces, list(groups), "", unit)
+    figure.layout.update(boxmode="overlay", scattermode="overlay")
+    return figure

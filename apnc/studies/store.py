@@ -10,23 +10,24 @@ from pathlib import Path
 from apnc.studies.rows import Row
 
 
-class Store:
+class Store(contextlib.ExitStack):
     """Finished trials, one JSON object per line; the last line of a trial counts.
 
     Args:
-        path: the file, made if it is not there; None keeps the rows in memory only.
+        path: the file, made with its folder if it is not there; None keeps the rows in memory.
 
     Attributes:
-        rows: by study and key.
-
-    A line that a kill has torn is dropped.
+        rows: by study and key; without a line that a kill has torn, which is dropped.
     """
 
     def __init__(self, path: Path | None) -> None:
+        super().__init__()
         self.rows: dict[tuple[str, str], Row] = {}
-        self._file = None if path is None else path.open("a+b")
-        if self._file is None:
+        self._file = None
+        if path is None:
             return
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self._file = self.enter_context(path.open("a+b"))
         self._file.seek(0)
         *lines, torn = self._file.read().split(b"\n")
         self._file.truncate(self._file.tell() - len(torn))
@@ -42,16 +43,10 @@ class Store:
             OSError: it cannot be written; the file is named.
         """
         self.rows[row["study"], row["key"]] = row
-        if self._file is None:
-            return
-        try:
-            self._file.write(json.dumps(row, allow_nan=False).encode() + b"\n")
-            self._file.flush()
-            os.fsync(self._file.fileno())
-        except OSError as error:
-            raise OSError(error.errno, error.strerror, self._file.name) from error
-
-    def close(self) -> None:
-        """Close the file."""
         if self._file is not None:
-            self._file.close()
+            try:
+                self._file.write(json.dumps(row, allow_nan=False).encode() + b"\n")
+                self._file.flush()
+                os.fsync(self._file.fileno())
+            except OSError as error:
+                raise OSError(error.errno, error.strerror, self._file.name) from error

@@ -1,63 +1,36 @@
-"""Where trials run: on this machine's cores, or on a Dask cluster."""
+"""Where trials run: in this process, in several of this machine, or on a Dask cluster."""
 
 from __future__ import annotations
 
-import multiprocessing
 import signal
-import threading
 from collections.abc import Callable, Iterator, Sequence
-from itertools import takewhile
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from contextlib import contextmanager
+from itertools import islice, takewhile
 from typing import Any
 
 from apnc.studies.rows import Row
 from apnc.studies.study import Trial
 
-Work = Callable[[Trial], Row]
-Stop = Callable[[], bool]
-Pool = Callable[[Sequence[Trial], Work, Stop], Iterator[Row]]
-"""Rows of trials as they finish, in any order; once ``stop()`` is true, no further trial begins."""
 
-
-def pool(workers: int, scheduler: str | None) -> Pool:
-    """The workers asked for.
-
-    Args:
-        workers: processes on this machine, if no scheduler is given; 1 runs in this one.
-        scheduler: address of a Dask scheduler, such as ``tcp://127.0.0.1:8786``, or None.
+@contextmanager
+def pool(workers: int, scheduler: str | None) -> Iterator[Executor | None]:
+    """The workers asked for, see ``run_study``; None is this process.
 
     Raises:
         ValueError: fewer than one process, the extra ``cluster`` is missing, or no scheduler there.
     """
     if scheduler:
-        return _cluster(_client(scheduler))
-    if workers < 1:
+        with _client(scheduler) as client:
+            yield client.get_executor(retries=3, pure=False)  # a lost worker's trials run elsewhere
+    elif workers < 1:
         raise ValueError(f"workers = {workers} is not at least 1")
-    return _processes(workers) if workers > 1 else _here
+    elif workers == 1:
+        yield None
+    else:
+        from joblib.externals.loky import get_reusable_executor  # noqa: PLC0415  # takes time
 
-
-def _here(trials: Sequence[Trial], work: Work, stop: Stop) -> Iterator[Row]:
-    return (work(trial) for trial in takewhile(lambda _: not stop(), trials))
-
-
-def _processes(count: int) -> Pool:
-    def rows(trials: Sequence[Trial], work: Work, stop: Stop) -> Iterator[Row]:
-        import joblib  # noqa: PLC0415  # not needed by a single process
-
-        # no more than what runs is handed out, so that a stop comes soon
-        handed = {"pre_dispatch": "n_jobs", "batch_size": 1}
-        parallel = joblib.Parallel(n_jobs=count, return_as="generator_unordered", **handed)
-        left = takewhile(lambda _: not stop(), trials)
-        yield from parallel(joblib.delayed(_deaf)(work, trial) for trial in left)
-
-    return rows
-
-
-def _deaf(work: Work, trial: Trial) -> Row:
-    """Leave Ctrl-C to the process that hands out the trials."""
-    child = multiprocessing.current_process().name != "MainProcess"
-    if child and threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-    return work(trial)
+        yield get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
 
 
 def _client(address: str) -> Any:
@@ -72,21 +45,29 @@ def _client(address: str) -> Any:
         raise ValueError(f"no Dask scheduler at {address}: {error}") from None
 
 
-def _cluster(client: Any) -> Pool:
-    def rows(trials: Sequence[Trial], work: Work, stop: Stop) -> Iterator[Row]:
-        from dask.distributed import as_completed  # noqa: PLC0415  # an extra
+def _leave_interrupts_to_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
-        names = ["-".join(trial.place) for trial in trials]
-        # a lost worker's trials run elsewhere
-        futures = client.map(work, trials, key=names, retries=3) if trials else []
-        try:
-            for future in as_completed(futures):
-                yield future.result()
-                future.release()
-                if stop():
-                    return
-        finally:
-            client.cancel(futures)
-            client.close()
 
-    return rows
+def rows_of(
+    trials: Sequence[Trial],
+    work: Callable[[Trial], Row],
+    executor: Executor | None,
+    at_once: int,
+    stop: Callable[[], bool],
+) -> Iterator[Row]:
+    """Rows as they finish, in any order; once ``stop()`` is true, no further trial begins."""
+    left = takewhile(lambda _: not stop(), trials)
+    if executor is None:
+        yield from map(work, left)
+        return
+    running: set[Future[Row]] = set()
+    while True:
+        running |= {executor.submit(work, trial) for trial in islice(left, at_once - len(running))}
+        if not running:
+            return
+        done, running = wait(running, return_when=FIRST_COMPLETED)
+        yield from (future.result() for future in done if not future.cancelled())
+        if stop():
+            for future in running:  # of those that wait on a cluster
+                future.cancel()

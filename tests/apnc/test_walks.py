@@ -11,6 +11,7 @@ from apnc import metrics
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
+from apnc.studies.contact.measure import GRADUAL, SUDDEN, errors, trot
 from apnc.studies.states.measure import measure
 from apnc.studies.states.timeline import TIMELINE
 from apnc.summary import Summary, summarise
@@ -83,3 +84,14 @@ def test_the_states_go_as_in_the_paper(method: str) -> None:
     stopped = (t > 20.0 - 1e-9) & (t < 24.0 - 1e-9)
     assert np.all(record.controller["MI"][stopped] == 0.0)
     assert np.all(record.controller["MI"][~stopped] == 0.15)
+
+
+def test_the_default_step_is_fine_enough_for_the_contact() -> None:
+    default = round(1.0 / 60.0 / Experiment().step)
+    finer = trot(GRADUAL, 2 * default)
+    coarse, own = (errors(trot(GRADUAL, n), finer) for n in (default // 2, default))
+    assert coarse["force_error"] > own["force_error"] > 0.0
+    assert coarse["distance_error_mm"] > own["distance_error_mm"] > 0.0
+    assert own["chatter"] < 0.01 and coarse["chatter"] > 10 * own["chatter"]
+    # damping that jumps in costs a higher peak
+    assert trot(SUDDEN, default).forces[..., 2].max() > 1.2 * own["peak_N"]

@@ -22,25 +22,16 @@ from build_fmu.build import host_fmu
 
 
 def search(
-    output: Path,
-    seed: int = 1,
-    generations: int = 60,
-    workers: int = 1,
-    sigma: float = 0.15,
-    start: Path | None = None,
-) -> Candidate:
-    """Search; a new random robot and noise in every generation, the same for its candidates.
+    output: Annotated[Path, typer.Option(help="Folder for search.csv.")] = Path("runs/search"),
+    seed: Annotated[int, typer.Option(help="Of optimiser and trials.")] = 1,
+    generations: Annotated[int, typer.Option(help="How many.")] = 60,
+    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+    sigma: Annotated[float, typer.Option(help="First spread, share of the ranges.")] = 0.15,
+    start: Annotated[Path | None, typer.Option(help="Log whose last mean is the start.")] = None,
+) -> None:
+    """Search and print the mean of the last distribution.
 
-    Args:
-        output: folder of ``search.csv``, made if missing.
-        seed: of the optimiser and of the trials.
-        generations: how many.
-        workers: processes.
-        sigma: first spread, as a share of every range.
-        start: log of an earlier search whose last mean is the start; the knobs' own if omitted.
-
-    Returns:
-        The mean of the final distribution, by name of the knob.
+    Every generation has a new random robot and noise, the same for its candidates.
     """
     try:
         cma: Any = importlib.import_module("cma")
@@ -73,7 +64,8 @@ def search(
                 log.writerow([generation, *(f"{value:.5g}" for value in row)])
             log.writerow([f"mean{generation}", *(f"{value:.5g}" for value in middle)])
             file.flush()
-    return mean
+    for name, value in mean.items():
+        typer.echo(f"{name} = {value:.4g}")
 
 
 def _costs(candidate: Candidate, seed: int) -> tuple[float, ...]:
@@ -95,18 +87,5 @@ def _candidate(x: NDArray[np.float64]) -> dict[str, float]:
     return {knob.name: knob.value(float(v)) for knob, v in zip(KNOBS, x, strict=True)}
 
 
-def _main(
-    output: Annotated[Path, typer.Option(help="Folder for search.csv.")] = Path("runs/search"),
-    seed: Annotated[int, typer.Option(help="Of optimiser and trials.")] = 1,
-    generations: Annotated[int, typer.Option(help="How many.")] = 60,
-    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
-    sigma: Annotated[float, typer.Option(help="First spread, share of the ranges.")] = 0.15,
-    start: Annotated[Path | None, typer.Option(help="Log whose last mean is the start.")] = None,
-) -> None:
-    """Search and print what was found."""
-    for name, value in search(output, seed, generations, workers, sigma, start).items():
-        typer.echo(f"{name} = {value:.4g}")
-
-
 if __name__ == "__main__":
-    typer.run(_main)
+    typer.run(search)

@@ -17,10 +17,12 @@ from apnc.loop.experiment import Experiment, Setting
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.studies.search.knobs import Candidate, built_robot, gains
-from apnc.studies.search.stuck_sensor import StuckSensor
 from apnc.studies.states.measure import STOPPED, judge
 from apnc.studies.states.timeline import Timeline
 from apnc.studies.study import COURSE_MI
+from exudyn_models.conditions import Conditions
+from exudyn_models.robot import RobotDescription
+from exudyn_models.trace import Trace
 
 Array = NDArray[np.float64]
 Cost = Callable[[Record, float], float]
@@ -167,12 +169,34 @@ def blocked_cost(settings: Mapping[str, float]) -> float:
     experiment = Experiment(
         mi=COURSE_MI, duration=15.0, method="apc", settings={**settings, **weaker}
     )
-    plant = StuckSensor(experiment.description, ticks=300)
+    plant = _StuckSensor(experiment.description, ticks=300)
     o1 = simulate(experiment, plant=plant).controller["o1"][:, 0]
     free, stuck = o1[60:300], o1[-480:]
     if np.ptp(stuck[-240:]) < STOPPED:
         return 0.0
     return min(1.0, 0.2 + 0.5 * _turns(stuck) / max(1, _turns(free)))
+
+
+class _StuckSensor:
+    """A plant without a robot: no foot bears a load, until after some ticks all sensors stick."""
+
+    fell = False
+
+    def __init__(self, robot: RobotDescription, ticks: int) -> None:
+        self.legs, self.mass = tuple(leg.name for leg in robot.legs), robot.mass
+        self._load, self._left = 0.9 * robot.weight / 2.0, ticks
+
+    def grf(self) -> Array:
+        return np.full(len(self.legs), self._load if self._left < 0 else 0.0)
+
+    def set_conditions(self, conditions: Conditions) -> None:
+        pass
+
+    def advance(self, theta_hip: Array, theta_knee: Array, duration: float) -> None:
+        self._left -= 1
+
+    def trace(self) -> Trace:
+        return Trace((np.zeros(1),), lambda rows: {})
 
 
 def _turns(o1: Array) -> int:

@@ -11,14 +11,7 @@ from exudyn_models.robot import RobotDescription, load_robot
 
 
 class Knob(NamedTuple):
-    """One number that is searched.
-
-    Args:
-        name: parameter of the controller, or ``part.field`` of the robot.
-        low, high: range.
-        start: where the search begins.
-        log: searched on a logarithmic scale.
-    """
+    """One number that is searched: parameter of the controller, or ``part.field`` of the robot."""
 
     name: str
     low: float

@@ -58,6 +58,9 @@ def over_time(record: Record, words: str) -> list[Figure]:
     found = []
     for panel in (panel for panel in all_figures(run) if panel.key in PANELS):
         layout = panel.layout | {
+            "height": panel.layout["height"] + 30,
+            "margin": panel.layout["margin"] | {"t": panel.layout["margin"]["t"] + 30},
+            "xaxis": panel.layout["xaxis"] | {"range": [0.0, TIMELINE.end]},
             "shapes": [*panel.layout.get("shapes", ()), *map(_band, _SPANS[::2])],
             "annotations": [*panel.layout.get("annotations", ()), *map(_label, _SPANS)],
         }
@@ -83,4 +86,4 @@ def _band(span: tuple[float, float, str]) -> dict[str, Any]:
 def _label(span: tuple[float, float, str]) -> dict[str, Any]:
     begin, end, text = span
     place = {"x": (begin + end) / 2, "y": 1.0, "yref": "paper", "yanchor": "bottom"}
-    return {"text": text, "showarrow": False} | place
+    return {"text": text, "showarrow": False, "yshift": 24} | place  # over the legend

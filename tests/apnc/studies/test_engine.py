@@ -21,7 +21,6 @@ from apnc.studies.engine import run_study, run_trial
 from apnc.studies.rows import Row
 from apnc.studies.store import Store
 from apnc.studies.study import Study, Trial
-from apnc.studies.workers import pool
 from build_fmu.build import host_fmu
 from exudyn_models.robot import ROBOTS
 
@@ -314,4 +313,4 @@ def test_dask_gives_the_same_rows_though_a_worker_is_killed(
 def test_no_scheduler_is_said() -> None:
     pytest.importorskip("distributed", reason="the extra cluster is not installed")
     with pytest.raises(ValueError, match="no Dask scheduler at moo"):
-        pool(1, "moo")
+        run_study("damage", scheduler="moo")

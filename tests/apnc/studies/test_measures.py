@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from records import TROT, outputs, synthetic_record
 
 from apnc.loop.record import End, Record
-from apnc.studies import steering
+from apnc.studies import contact, steering
 from apnc.studies.contact.measure import Trot, chatter, errors, touch_down
 from apnc.studies.engine import measured
 from apnc.studies.rows import Row
@@ -274,6 +275,26 @@ def test_errors_compare_at_the_ends_of_the_coarsest_steps() -> None:
     found = errors(trot_of(own.reshape(-1, 1)), trot_of(fine))
     assert found["force_error"] == 0.0
     assert found["tick_force_error"] == pytest.approx(0.2)  # the mean is 12
+
+
+def test_contact_is_measured_with_the_step_of_the_walk(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[tuple[float, int]] = []
+
+    def trot(depth: float, steps: int) -> Trot:
+        asked.append((depth, steps))
+        return trot_of(np.full((120 * steps, 4), 12.0 if steps == 16 else 10.0))
+
+    contact_measure = importlib.import_module("apnc.studies.contact.measure")
+    monkeypatch.setattr(contact_measure, "trot", trot)
+    experiment = contact.experiment("apnc", 0, 1e-6, 16)
+    record = replace(synthetic_record(30.0), experiment=experiment, wall_s=3.0)
+    record = replace(record, robot=experiment.description)
+    row = contact_measure.measure(record)
+    assert asked == [(1e-6, 16), (1e-6, 256)]
+    assert row["step_ms"] == pytest.approx(1e3 / 60 / 16)
+    assert row["real_time_factor"] == pytest.approx(10.0)
+    assert row["force_error"] == pytest.approx(0.2)
+    assert set(row) >= {"peak_N", "tick_force_error", "chatter", "distance_error_mm"}
 
 
 def test_touch_down_is_the_first_rise_from_zero() -> None:

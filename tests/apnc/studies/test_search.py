@@ -16,13 +16,13 @@ from apnc.loop.simulate import simulate
 from apnc.studies.search.__main__ import search
 from apnc.studies.search.costs import (
     TURNING,
+    _StuckSensor,
     blocked_cost,
     damage_cost,
     formation_cost,
     walking_cost,
 )
 from apnc.studies.search.knobs import KNOBS, built_robot, gains
-from apnc.studies.search.stuck_sensor import StuckSensor
 
 
 def test_knobs_reach_their_ends_and_their_start() -> None:
@@ -86,7 +86,7 @@ def test_turning_goes_left_and_then_right() -> None:
 
 def test_the_stuck_sensor_sticks_after_its_ticks() -> None:
     experiment = Experiment(method="apc", duration=0.2)
-    plant = StuckSensor(experiment.description, ticks=5)
+    plant = _StuckSensor(experiment.description, ticks=5)
     record = simulate(experiment, plant=plant)
     load = 0.9 * experiment.description.weight / 2.0
     assert record.controller["grf"][:, 0] == pytest.approx([0.0] * 6 + [load] * 6)
