@@ -51,7 +51,7 @@ def pictures(page: str) -> dict[str, str]:
 
 
 def main(report: Path, folder: Path) -> None:
-    """Write ``evaluation-<figure>.svg`` files into ``folder``."""
+    """Write ``<figure>.svg`` files into ``folder``, named by the keys of the figures."""
     drawn = pictures(report.read_text(encoding="utf-8"))
     folder.mkdir(parents=True, exist_ok=True)
     for name, picture in drawn.items():
