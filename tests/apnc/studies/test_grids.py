@@ -116,7 +116,7 @@ def test_states_follow_the_timeline() -> None:
             (20.0, "S3"),
         )
         assert trial.experiment.mi == ((0.0, 0.15), (20.0, 0.0), (24.0, 0.15))
-        assert trial.cell["mi"] == "0:0.15,20:0.0,24:0.15"
+        assert trial.cell["mi"] == steps_text(trial.experiment.mi)
 
 
 def test_steering_turns_right_and_then_left() -> None:
