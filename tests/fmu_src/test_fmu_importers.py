@@ -96,9 +96,6 @@ BLOCKS = [
 ]
 
 
-WAITING = pytest.mark.xfail(strict=True, reason="`apnc build` does not offer --preset yet")
-
-
 def run_block(command: list[str], folder: Path) -> str:
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -107,7 +104,7 @@ def run_block(command: list[str], folder: Path) -> str:
 
 @pytest.mark.parametrize(
     "block",
-    [pytest.param(b, marks=WAITING) if "--preset" in b.code else b for b in BLOCKS],
+    BLOCKS,
     ids=lambda b: f"{b.language} in line {b.line}",
 )
 def test_block_of_the_page_on_importing_runs(block: Block, fmu4: Path, tmp_path: Path) -> None:

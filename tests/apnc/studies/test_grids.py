@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from apnc.loop.steps import steps_of
+from apnc.loop.steps import steps_of, steps_text
 from apnc.studies import contact, sensitivity
 from apnc.studies.engine import grid_of
 from apnc.studies.registry import STUDIES, load, names_of
