@@ -1,9 +1,10 @@
 """``apnc study``: a command for every study of the registry."""
-# ruff: noqa: PLC0415  # what takes seconds to import waits until it is needed
+# what takes seconds to import waits until it is needed
 
 from __future__ import annotations
 
 import inspect
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Final
@@ -51,8 +52,6 @@ def _command(name: str, axes: tuple[str, ...]) -> Callable[..., None]:
 def _run(
     name: str, axes: tuple[str, ...], *, output: Path, workers: int | None, **options: Any
 ) -> None:
-    import joblib
-
     texts = {axis: options.pop(axis) for axis in axes}
     chosen = {k: [v.strip() for v in text.split(",")] for k, text in texts.items() if text}
     with bar(f"study {name}") as show:
@@ -64,7 +63,7 @@ def _run(
             name,
             methods=chosen.pop(METHODS, None),
             chosen=chosen,
-            workers=workers if workers is not None else joblib.cpu_count(),
+            workers=workers if workers is not None else os.cpu_count() or 1,
             output=writable(output),
             progress=progress,
             stop=STOP,

@@ -24,7 +24,7 @@ from apnc_core.variables import row, rows
 from exudyn_models.conditions import CONDITIONS, Conditions, named_conditions
 from exudyn_models.ground import Plane, Surface, from_dict
 from exudyn_models.physics.options import PlantOptions
-from exudyn_models.robot import RobotDescription, load_robot
+from exudyn_models.robot import ROBOTS, RobotDescription, load_robot
 
 Setting = Value | Sequence[float]
 
@@ -222,9 +222,10 @@ class Experiment:
     def command(self) -> str:
         """The command line that runs it again.
 
-        Pitfall: a robot or conditions given as an object have no words on the command line; their
-        names stand there.
+        A robot or conditions that are an object have no words there; then a comment says so.
         """
+        if objects := self._objects():
+            return f"# from Python only: {' and '.join(objects)} given as an object"
         words = ["apnc", "walk"]
         for name, value in self.changed().items():
             if name == "settings":
@@ -240,6 +241,19 @@ class Experiment:
             else:
                 words += [f"--{name}", steps_text(value)]
         return shlex.join(words)
+
+    def _objects(self) -> list[str]:
+        """What was given as an object and equals nothing that has a name."""
+        found = []
+        robot = self.robot
+        if isinstance(robot, RobotDescription):
+            shipped = (ROBOTS / f"{robot.name}.toml").is_file()
+            if not shipped or _shipped(robot.name) != robot:
+                found.append(f"robot '{robot.name}'")
+        values = [value for _, value in steps_of(self.conditions)]
+        if any(_name_of(value) not in CONDITIONS for value in values):
+            found.append("conditions")
+        return found
 
 
 def conditions_of(value: str | Conditions) -> Conditions:

@@ -78,7 +78,7 @@ def run_study(
     path = None if folder is None else folder / ROWS_FILE
     if folder is None and series:
         raise ValueError("series are kept in a folder: give an output")
-    if path is not None and path.exists() and not resume:
+    if path is not None and path.exists() and path.stat().st_size > 0 and not resume:
         raise ValueError(f"{path} holds trials already; --resume continues them")
     begin, total = time.perf_counter(), sum(trial.experiment.duration for trial in grid.values())
     with pool(workers, scheduler) as executor, Store(path) as store:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
@@ -28,9 +29,15 @@ def pool(workers: int, scheduler: str | None) -> Iterator[Executor | None]:
     elif workers == 1:
         yield None
     else:
-        from joblib.externals.loky import get_reusable_executor  # noqa: PLC0415  # takes time
-
-        yield get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
+        try:
+            from joblib.externals.loky import get_reusable_executor  # noqa: PLC0415  # an extra
+        except ImportError:
+            extra = "pip install 'apnc[study]', or --workers 1"
+            raise ValueError(f"workers = {workers} needs the extra 'study': {extra}") from None
+        executor = get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
+        with _interrupts_ignored():
+            executor.submit(int)  # starts the processes, which ignore Ctrl-C from then on
+        yield executor
 
 
 def _client(address: str) -> Any:
@@ -43,6 +50,19 @@ def _client(address: str) -> Any:
         return Client(address, timeout="10s")
     except (OSError, ValueError) as error:
         raise ValueError(f"no Dask scheduler at {address}: {error}") from None
+
+
+@contextmanager
+def _interrupts_ignored() -> Iterator[None]:
+    """Ctrl-C has no effect in here, nor, until they say otherwise, in processes started here."""
+    if threading.current_thread() is not threading.main_thread():  # others may not set signals
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _leave_interrupts_to_parent() -> None:

@@ -32,10 +32,18 @@ def apnc(
 def interrupted(
     *command: str, at: str, cwd: Path, env: dict[str, str] | None = None
 ) -> tuple[int, str]:
-    """Exit code and standard error of a command that gets Ctrl-C once ``at`` stands there."""
+    """Exit code and standard error of a command that gets Ctrl-C once ``at`` stands there.
+
+    As from a keyboard, its child processes get it too.
+    """
     terminal, theirs = pty.openpty()
     process = subprocess.Popen(
-        [*command], cwd=cwd, stderr=theirs, stdout=subprocess.DEVNULL, env=os.environ | (env or {})
+        [*command],
+        cwd=cwd,
+        stderr=theirs,
+        stdout=subprocess.DEVNULL,
+        env=os.environ | (env or {}),
+        process_group=0,
     )
     os.close(theirs)
     shown, sent, end = "", False, time.monotonic() + 300.0
@@ -47,7 +55,7 @@ def interrupted(
             break
         if not sent and at in shown:
             sent = True
-            process.send_signal(signal.SIGINT)
+            os.killpg(process.pid, signal.SIGINT)
         if not ready and process.poll() is not None:
             break
     else:

@@ -168,3 +168,11 @@ def test_conditions_come_back_from_plain_data() -> None:
 def test_other_data_is_no_experiment(change: dict[str, Any], words: str) -> None:
     with pytest.raises(ValueError, match=re.escape(words)):
         Experiment.from_dict(Experiment().to_dict() | change)
+
+
+def test_no_command_stands_for_an_object_that_has_no_name() -> None:
+    slippery = load_robot("lilibot")
+    slippery = replace(slippery, contact=replace(slippery.contact, friction=0.3))
+    assert Experiment(robot=load_robot("lilibot")).command() == "apnc walk --robot lilibot"
+    command = Experiment(robot=slippery, conditions=Conditions(damaged=("LH",))).command()
+    assert command == "# from Python only: robot 'lilibot' and conditions given as an object"
