@@ -42,6 +42,22 @@ def test_ctrl_c_during_the_imports_is_no_traceback(at: str, tmp_path: Path) -> N
     assert not (tmp_path / "apnc-walk" / "summary.json").exists()
 
 
+@pytest.mark.parametrize("at", [" joblib.externals.loky", "of 4 trials"])
+def test_ctrl_c_in_a_study_also_reaches_workers_and_is_no_traceback(
+    at: str, tmp_path: Path
+) -> None:
+    study = ("study", "mi", "--trials", "4", "--mi", "0.08", "--methods", "apnc", "--workers", "2")
+    python = (sys.executable, "-X", "importtime", "-m", "apnc")
+    code, shown = interrupted(*python, *study, "--duration", "3", at=at, cwd=tmp_path)
+    said = [line for line in shown.splitlines() if not line.startswith("import time:")]
+    assert code == 130, said
+    assert not any("Traceback" in line or "segmentation" in line for line in said)
+    store = tmp_path / "apnc-study-mi" / "trials.jsonl"
+    rows = store.read_text().splitlines() if store.exists() else []
+    assert len(rows) < 4
+    assert all(json.loads(row)["error"] == "" for row in rows)
+
+
 def test_before_a_loop_asks_ctrl_c_raises_afterwards_the_second_does() -> None:
     stop = StopRequest()
     with stop.listening():
