@@ -136,6 +136,9 @@ def test_damage_shows_the_speed_of_every_method() -> None:
     speed = {"apnc": 0.1, "tegotae": 0.2, "phase_reset": 0.3}
     rows = made_up({}, lambda c: {"path_speed_m_per_s": speed[c["method"]]}, study="damage")
     (figure,) = load("damage").figures(rows)
+    assert (figure.key, figure.title) == ("damage-speed", "Speed")
+    assert figure.note == "Commands of leg RF held at 0."
+    assert figure.layout["yaxis"]["title"]["text"] == "speed [m/s]"
     assert [(t["name"], t["y"][0]) for t in figure.data] == [
         ("APNC", 0.1),
         ("Tegotae", 0.2),
@@ -167,6 +170,10 @@ def test_states_show_speeds_with_and_without_couplings() -> None:
 
 def test_the_table_of_states() -> None:
     text = states.table(state_rows())
+    assert text.splitlines()[0] == (
+        "| couplings | state | as the paper says | success (95 % interval) | "
+        "time [s], median (range) | speed [m/s], median (range) |"
+    )
     assert text.splitlines()[2:4] == [
         "| with ANC | S1 | the gait forms and lasts to the break | 6/6 (54 ... 100 %) | "
         "1.5 (1.5 ... 1.5) | 0.110 (0.110 ... 0.110) |",
@@ -188,6 +195,13 @@ def test_steering_shows_every_section() -> None:
 
     rows = made_up({"course": ("speeds", "turns")}, figures, methods=("apnc",), study="steering")
     speed, yaw = steering.STUDY.figures(rows)
+    assert (speed.key, yaw.key) == ("steering-speeds", "steering-turns")
+    assert (speed.title, yaw.title) == ("Speed", "Yaw rate")
+    assert yaw.note == "Positive turns left."
+    assert [f.layout["yaxis"]["title"]["text"] for f in (speed, yaw)] == [
+        "speed [m/s]",
+        "yaw rate [rad/s]",
+    ]
     assert [(t["name"], t["y"][0]) for t in speed.data] == [
         ("MI 0.15, section 1", pytest.approx(0.1)),
         ("MI 0.4, section 2", pytest.approx(0.2)),
@@ -216,7 +230,14 @@ def test_the_table_of_mi_counts_failures_and_errors() -> None:
 
 
 def test_the_table_of_mi_has_a_line_per_method_and_mi() -> None:
-    lines = mi.table(made_up({"mi": (0.2, 0.08)}, times)).splitlines()[2:]
+    lines = mi.table(made_up({"mi": (0.2, 0.08)}, times)).splitlines()
+    assert lines[:2] == [
+        "| method | MI | trot kept, strict (95 % interval) | "
+        "strict time [s], median (quartiles; longest) | authors' criterion | "
+        "authors' time [s], median | speed [m/s], median (range) | fell |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    lines = lines[2:]
     assert [line[2:17] for line in lines[:2]] == ["apnc | 0.08 | 6", "apnc | 0.20 | 6"]
     assert lines[2].startswith("| tegotae | 0.08 | 0/6 (0 ... 46 %) | - | 6/6 | 1.0 | - | 0 |")
     assert len(lines) == 6
@@ -229,6 +250,10 @@ def test_the_table_of_sensitivity_shows_what_did_not_form() -> None:
 
     cells = {"change": ("nothing",), "mi": (0.08, 0.16)}
     rows = made_up(cells, figures, methods=("apnc",), seeds=2, study="sensitivity")
+    assert sensitivity.table(rows).splitlines()[0] == (
+        "| change | MI 0.08: trot after [s] | MI 0.08: speed [m/s] | "
+        "MI 0.16: trot after [s] | MI 0.16: speed [m/s] | fell |"
+    )
     assert sensitivity.table(rows).splitlines()[2] == (
         "| nothing | 3.2, - | 0.050 | 3.2, - | 0.050 | 2/4 |"
     )
@@ -249,6 +274,10 @@ def test_contact_shows_error_and_chatter_over_the_step() -> None:
     assert shown["force error, damping depth 0.001 mm"] == [pytest.approx(1e3 / 60 / 8)]
     assert len(shown["chatter, damping depth 0.001 mm"]) == 2
     assert figure.layout["xaxis"]["type"] == figure.layout["yaxis"]["type"] == "log"
+    assert figure.layout["xaxis"]["title"]["text"] == "step [ms]"
+    assert figure.layout["yaxis"]["title"]["text"] == "error, chatter [1]"
+    assert figure.key == "contact-error" and not figure.over_time
+    assert all(trace["mode"] == "lines+markers" for trace in figure.data)
 
 
 def test_touch_down_is_shown_for_four_laws(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -259,6 +288,9 @@ def test_touch_down_is_shown_for_four_laws(monkeypatch: pytest.MonkeyPatch) -> N
 
     monkeypatch.setattr(contact, "trot", trot)
     (figure,) = contact.STUDY.scenes()
+    assert figure.layout["xaxis"]["title"]["text"] == "time from touch-down [ms]"
+    assert figure.layout["yaxis"]["title"]["text"] == "vertical force on foot RF [N]"
+    assert figure.key == "contact-force" and not figure.over_time
     assert [trace["name"] for trace in figure.data] == [
         "0.0651 ms, damping depth 0.001 mm",
         "0.0651 ms, damping depth 0.2 mm",

@@ -100,6 +100,22 @@ def test_front_oscillators_have_two_seconds_to_stop() -> None:
     assert not judge(states_record(stops=hind))["front_stopped"]
 
 
+def test_front_oscillators_may_stop_anywhere() -> None:
+    record = states_record(stops=[(16.0, 20.0, 0), (16.0, 20.0, 2)])
+    o1 = record.controller["o1"].copy()
+    o1[(record.time >= 16.0) & (record.time < 20.0), 2] = -0.8
+    assert judge(replace(record, controller={**record.controller, "o1": o1}))["front_stopped"]
+
+
+def test_a_touch_bears_a_fifth_of_the_weight() -> None:
+    record = states_record(((0.0, PRONK), (5.0, TROT)))
+    force = record.plant["foot_force"].copy()
+    force[record.time < 4.0] *= 0.05
+    light = replace(record, plant={**record.plant, "foot_force": force})
+    later = judge(record)["formation_time_s"] - judge(light)["formation_time_s"]
+    assert later == pytest.approx(4.0 - 1.7, abs=0.3)
+
+
 def test_in_phase_is_the_last_second() -> None:
     assert judge(states_record(((0.0, TROT), (30.0, PRONK))))["in_phase"]
     assert not judge(states_record())["in_phase"]
@@ -182,6 +198,7 @@ def test_times_must_follow_each_other(times: dict[str, float]) -> None:
 def test_a_robot_may_stand_from_the_start() -> None:
     experiment = Timeline(0.0, 3.0, 8.0, 9.0, 14.0).experiment("apnc", 0)
     assert experiment.conditions == ((0.0, "C1"), (3.0, "S2"), (8.0, "S3"))
+    assert TIMELINE.experiment("apc", 0, settings={"xi": 0.02}).settings == {"xi": 0.02}
 
 
 # --- courses -----------------------------------------------------------------------------------
@@ -242,6 +259,16 @@ def test_chatter_is_the_share_of_loaded_steps_that_turn_round() -> None:
     assert chatter(forces) == 0.0
 
 
+def test_only_lateral_forces_that_turn_sharply_both_ways_chatter() -> None:
+    forces = np.zeros((102, 1, 3))
+    forces[:, 0, 2] = 1.5  # loaded
+    forces[::2, 0, 2] += 1.0  # vertical
+    forces[:, 0, 0] = np.cumsum(np.where(np.arange(102) % 2, 1.0, -0.05))
+    assert chatter(forces) == 0.0
+    forces[::2, 0, 1] = 1.0
+    assert chatter(forces) == 1.0
+
+
 def test_a_force_that_turns_once_does_not_chatter() -> None:
     forces = np.zeros((100, 1, 3))
     forces[:, 0, 2] = 5.0
@@ -256,13 +283,13 @@ def trot_of(vertical: Array, place: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 def test_errors_are_relative_to_the_finest_step() -> None:
-    ticks, legs = 120, 4
-    fine = np.full((ticks * 256, legs), 10.0)
-    coarse = np.full((ticks * 16, legs), 11.0)
-    found = errors(trot_of(coarse, (0.0, 3e-3, 4e-3)), trot_of(fine))
+    level = np.repeat([[10.0], [20.0], [0.0]], 40, axis=0)  # by tick
+    fine = np.repeat(level, 256, axis=0) * np.ones(4)
+    coarse = 1.1 * np.repeat(level, 16, axis=0) * np.ones(4)
+    found = errors(trot_of(coarse, (1.0, 3e-3, 4e-3)), trot_of(fine, (1.0, 0.0, 0.0)))
     assert found["force_error"] == pytest.approx(0.1)
     assert found["tick_force_error"] == pytest.approx(0.1)
-    assert found["peak_N"] == 11.0
+    assert found["peak_N"] == pytest.approx(22.0)
     assert found["distance_error_mm"] == pytest.approx(5.0)
     assert found["chatter"] == 0.0
 
@@ -275,6 +302,9 @@ def test_errors_compare_at_the_ends_of_the_coarsest_steps() -> None:
     found = errors(trot_of(own.reshape(-1, 1)), trot_of(fine))
     assert found["force_error"] == 0.0
     assert found["tick_force_error"] == pytest.approx(0.2)  # the mean is 12
+    own[:, 1] = 18.0  # at the end of the first of eight
+    found = errors(trot_of(own.reshape(-1, 1)), trot_of(fine))
+    assert found["force_error"] == pytest.approx(0.8 / np.sqrt(8.0))
 
 
 def test_contact_is_measured_with_the_step_of_the_walk(monkeypatch: pytest.MonkeyPatch) -> None:
