@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import importlib
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
 import pytest
 
-from apnc.loop.steps import steps_of, steps_text
+from apnc.loop.steps import parse_steps, steps_of
 from apnc.studies import contact, sensitivity
 from apnc.studies.engine import grid_of
 from apnc.studies.registry import STUDIES, load, names_of
@@ -116,7 +118,7 @@ def test_states_follow_the_timeline() -> None:
             (20.0, "S3"),
         )
         assert trial.experiment.mi == ((0.0, 0.15), (20.0, 0.0), (24.0, 0.15))
-        assert trial.cell["mi"] == steps_text(trial.experiment.mi)
+        assert parse_steps("mi", trial.cell["mi"], float) == trial.experiment.mi
 
 
 def test_steering_turns_right_and_then_left() -> None:
@@ -139,9 +141,18 @@ def leaves(value: Any, name: str = "") -> dict[str, Any]:
     return {k: v for key, part in pairs for k, v in leaves(part, f"{name}/{key}").items()}
 
 
+@pytest.fixture
+def changes() -> Mapping[str, sensitivity.Change]:
+    # made anew: a mutation run switches a mutant on after modules were imported
+    found: Mapping[str, sensitivity.Change] = importlib.reload(sensitivity).CHANGES
+    return found
+
+
 @pytest.mark.parametrize("name", sensitivity.CHANGES)
-def test_a_change_touches_one_number_of_each_part(name: str) -> None:
-    robot = sensitivity.CHANGES[name](LILIBOT)
+def test_a_change_touches_one_number_of_each_part(
+    name: str, changes: Mapping[str, sensitivity.Change]
+) -> None:
+    robot = changes[name](LILIBOT)
     before, after = leaves(asdict(LILIBOT)), leaves(asdict(robot))
     changed = [key for key in before if before[key] != after[key]]
     if name == "nothing":
@@ -154,8 +165,8 @@ def test_a_change_touches_one_number_of_each_part(name: str) -> None:
         assert len(changed) == 1
 
 
-def test_changes_do_what_they_say() -> None:
-    after = {name: change(LILIBOT) for name, change in sensitivity.CHANGES.items()}
+def test_changes_do_what_they_say(changes: Mapping[str, sensitivity.Change]) -> None:
+    after = {name: change(LILIBOT) for name, change in changes.items()}
     assert after["friction 0.5"].contact.friction == 0.5
     assert after["P x 0.8"].servo.stiffness == pytest.approx(0.8 * LILIBOT.servo.stiffness)
     assert after["sensor shows the norm"].sensor.component == "norm"
@@ -163,6 +174,10 @@ def test_changes_do_what_they_say() -> None:
     higher = after["trunk's centre of mass 10 mm higher"].trunk.body.com
     assert higher == pytest.approx((x, y, z + 0.01))
     assert after["5 mm further back"].trunk.body.com == pytest.approx((x - 0.005, y, z))
+    legs = after["25 g from each tibia to its femur"].legs
+    for leg, own in zip(legs, LILIBOT.legs, strict=True):
+        assert leg.femur.mass == pytest.approx(own.femur.mass + 0.025)
+        assert leg.tibia.mass == pytest.approx(own.tibia.mass - 0.025)
 
 
 def test_the_changed_robot_walks() -> None:
