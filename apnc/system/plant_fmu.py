@@ -23,7 +23,7 @@ _SCRIPT: Final = '''\
 """{description}."""
 
 try:
-    from apnc.system.plant_slave import PlantSlave
+    from apnc.system.plant_slave import PlantSlave, hold
 except ImportError as error:
     import sys
 
@@ -31,6 +31,8 @@ except ImportError as error:
         "{model}.fmu needs the package apnc {version} in the Python that runs it, "
         f"{{sys.executable}} (version {{sys.version.split()[0]}}): {{error}}"
     ) from error
+
+hold(globals())
 
 
 class {model}(PlantSlave):

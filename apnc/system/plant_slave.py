@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ctypes
+import functools
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -43,6 +45,31 @@ TOO_SHORT: Final = 1e-9
 """A step below this [s] changes nothing: importers end runs with what rounding has left."""
 
 
+def hold(*things: object) -> None:
+    """Add a reference that nobody gives back.
+
+    PythonFMU 0.7.0 gives back references that it has not taken: of the names of the script and of
+    the class with every instance, and of class, instance and log with every exception. The process
+    would crash sooner or later, often not before it ends.
+    """
+    for thing in things:
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(thing))
+
+
+def _outlived(method: Any) -> Any:
+    """The method, after whose exceptions the instance lives on."""
+
+    @functools.wraps(method)
+    def outlived(self: PlantSlave, *arguments: Any) -> Any:
+        try:
+            return method(self, *arguments)
+        except Exception:
+            hold(type(self), self, self.log_queue)
+            raise
+
+    return outlived
+
+
 class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
     """One robot; a subclass in the FMU says which.
 
@@ -58,6 +85,11 @@ class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
     NAMING: ClassVar = "structured"
     BUILT_BY: ClassVar = __version__
     GUID: ClassVar = ""
+
+    def __init_subclass__(cls) -> None:
+        """Keep the class for ever."""
+        super().__init_subclass__()
+        hold(cls)
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -177,6 +209,13 @@ class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
         """Take the start time [s]."""
         self._time = start_time
 
+    get_real = _outlived(Fmi2Slave.get_real)
+    set_real = _outlived(Fmi2Slave.set_real)
+    set_integer = _outlived(Fmi2Slave.set_integer)
+    set_boolean = _outlived(Fmi2Slave.set_boolean)
+    set_string = _outlived(Fmi2Slave.set_string)
+
+    @_outlived
     def exit_initialization_mode(self) -> None:
         """Put the robot on the ground.
 
@@ -192,7 +231,7 @@ class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
         Returns:
             False, which PythonFMU makes fmi2Discard, with the reason in the log: a command that is
             not finite, a step that begins elsewhere than the last one ended, a motion that
-            diverged. An exception here would leave the library unfit for further calls.
+            diverged. An exception would be fmi2Fatal.
         """
         try:
             self._advance(current_time, step_size)
@@ -210,7 +249,7 @@ class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
             if not math.isfinite(value):
                 raise ValueError(f"{name} = {value}; allowed: a finite angle")
         self._time = start + duration
-        if duration < TOO_SHORT:
+        if duration < TOO_SHORT or self._fell:
             return
         plant = self._made()
         hip, knee = self._commands.reshape(2, -1)
@@ -218,7 +257,9 @@ class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
         self._shown = None
         for _ in range(parts):
             plant.advance(hip, knee, duration / parts)
-            self._fell = self._fell or plant.fell
+            self._fell = plant.fell
+            if self._fell:
+                break
 
     def to_xml(self, model_options: dict[str, str] | None = None) -> Element:
         """The model description, with the units, limits and dependencies PythonFMU leaves out."""

@@ -129,7 +129,8 @@ PARAMETERS: Final = (
 FELL: Final = PlantVariable(
     "fell",
     Causality.output,
-    "true once the trunk has tipped by more than 60 degrees or touched the ground",
+    "true once the trunk has tipped by more than 60 degrees or touched the ground; nothing moves "
+    "from then on",
 )
 
 

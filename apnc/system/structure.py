@@ -86,6 +86,11 @@ class Structure:
         return {name: UNITS[name] for name in sorted(filter(None, used))}
 
 
+def system_name(robot: str) -> str:
+    """Name of the system: ``Lilibot`` for robot ``lilibot``, by name or file."""
+    return plant_model(robot).removesuffix(MODEL_SUFFIX)
+
+
 def structure_of(experiment: Experiment, naming: str = "structured") -> Structure:
     """The system that walks an experiment.
 
@@ -117,7 +122,7 @@ def structure_of(experiment: Experiment, naming: str = "structured") -> Structur
     loads = [row(LOAD).scalar_name(leg, naming) for leg in range(n_legs)]
     commands = [row(c).scalar_name(leg, naming) for c in COMMANDS for leg in range(n_legs)]
     return Structure(
-        name=model.removesuffix(MODEL_SUFFIX),
+        name=system_name(experiment.robot),
         components=(
             Component(CONTROLLER, f"{RESOURCES}/{MODEL}.fmu", tuple(controller)),
             Component(PLANT, f"{RESOURCES}/{model}.fmu", tuple(plant)),
@@ -170,6 +175,7 @@ def _controller_starts(experiment: Experiment, naming: str) -> list[Start]:
         if v.type in (Type.boolean, Type.enumeration) and value == v.start:
             continue
         if v.enumeration:
+            assert isinstance(value, int)
             starts.append(Start(CONTROLLER, v.name, v.type, v.enumeration.items(value).name))
             continue
         entries = value if isinstance(value, tuple | list) else [value]

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 TICK: Final = 1.0 / 60.0
+SYSTEM: Final = "Lilibot"
 NANOSECONDS: Final = 16_666_667
 STRUCTURED: Final = {
     "controller": [f"leg[{i}].{x}" for x in ("o1", "o2") for i in range(1, 5)],
@@ -95,9 +96,21 @@ def ecos(folder: Path, seconds: float) -> tuple[Array, float]:
     from ecospy import EcosSimulation
 
     sim = EcosSimulation(step_size=TICK, ssp_path=f"{folder}.ssp")
-    sim.init(parameter_set="Lilibot")
+    sim.init(parameter_set=SYSTEM)
     wanted = [f"{part}::{name}" for part, each in names(folder).items() for name in each]
     return _loop(lambda: sim.step(), lambda: [sim.get_real(name) for name in wanted], seconds)
+
+
+def omsimulator(folder: Path, seconds: float) -> tuple[Array, float]:
+    from OMSimulator import SSP, CRef, Settings
+
+    Settings.suppressPath = True
+    model = SSP(f"{folder}.ssp").instantiate()
+    model.setFixedStepSize(TICK)
+    model.setStopTime(seconds)
+    model.initialize()
+    wanted = [CRef(SYSTEM, part, name) for part, each in names(folder).items() for name in each]
+    return _loop(model.doStep, lambda: [model.getValue(name) for name in wanted], seconds)
 
 
 def container(folder: Path, seconds: float) -> tuple[Array, float]:
@@ -154,12 +167,15 @@ HOSTS: Final[dict[str, Callable[[Path, float], tuple[Array, float]]]] = {
     "libcosim-osp": lambda folder, seconds: cosim("osp", folder, seconds),
     "libcosim-ssp": lambda folder, seconds: cosim("ssp", folder, seconds),
     "ecos": ecos,
+    "omsimulator": omsimulator,
     "container": container,
 }
 
 
 def main(words: list[str]) -> None:
     host, folder, seconds, out = words
+    import exudyn_models.physics.plant  # noqa: F401  # takes seconds that are no simulation
+
     rows, wall = HOSTS[host](Path(folder), float(seconds))
     columns = np.cumsum([4, 4, 4])
     o1, o2, grf, position = np.split(rows, columns, axis=1)
