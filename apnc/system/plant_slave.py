@@ -45,6 +45,11 @@ TOO_SHORT: Final = 1e-9
 """A step below this [s] changes nothing: importers end runs with what rounding has left."""
 
 
+# In a host that is not Python, PythonFMU makes a thread state for every call and deletes it again.
+# Exudyn keeps the one it was imported with, and would wait for ever for the next: keep it alive.
+ctypes.pythonapi.PyGILState_Ensure()
+
+
 def hold(*things: object) -> None:
     """Add a reference that nobody gives back.
 
