@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from apnc.cli import bench, build, info, memory, study, walk
+from apnc.cli import bench, build, info, memory, study, system, walk
 from apnc_core import __version__
 
 app = typer.Typer(
@@ -18,6 +18,8 @@ app = typer.Typer(
 )
 app.command("walk")(walk.walk)
 app.command("build")(build.build)
+app.command("build-plant")(system.build_plant)
+app.command("build-system")(system.build_system)
 app.command("info")(info.info)
 app.add_typer(memory.app, name="memory")
 app.add_typer(study.app, name="study")

@@ -1,0 +1,1 @@
+"""Parts for models of a whole system: the robot as an FMU, and both FMUs connected."""

@@ -1,0 +1,44 @@
+"""A system as OspSystemStructure.xml of the Open Simulation Platform."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from lxml import etree
+
+from apnc.system.ssp import value_text
+from apnc.system.structure import Structure
+
+OSP_FILE: Final = "OspSystemStructure.xml"
+
+_NAMESPACE: Final = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
+
+
+def osp(structure: Structure) -> bytes:
+    """OspSystemStructure.xml.
+
+    Pitfalls: its steps are whole nanoseconds, so the step is rounded to one. Start values of
+    enumerations are left out: libcosim knows no enumerations.
+    """
+    root = etree.Element("OspSystemStructure", xmlns=_NAMESPACE, version="0.1")
+    step = f"{structure.step:.9f}"
+    etree.SubElement(root, "StartTime").text = "0"
+    etree.SubElement(root, "BaseStepSize").text = step
+    etree.SubElement(root, "Algorithm").text = "fixedStep"
+    simulators = etree.SubElement(root, "Simulators")
+    for part in structure.components:
+        simulator = etree.SubElement(
+            simulators, "Simulator", name=part.name, source=part.source, stepSize=step
+        )
+        values = etree.SubElement(simulator, "InitialValues")
+        for start in structure.starts:
+            if start.component == part.name and start.type != "Enumeration":
+                value = etree.SubElement(values, "InitialValue", variable=start.name)
+                etree.SubElement(value, start.type, value=value_text(start))
+    connections = etree.SubElement(root, "Connections")
+    for ends in structure.connections:
+        connection = etree.SubElement(connections, "VariableConnection")
+        for simulator, name in ends:
+            etree.SubElement(connection, "Variable", simulator=simulator, name=name)
+    text: bytes = etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8")
+    return text
