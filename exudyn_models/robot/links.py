@@ -11,7 +11,7 @@ class Link(NamedTuple):
     """A link and the joint that moves it; its frame sits at the joint.
 
     Args:
-        part: ``"hip"``, ``"femur"`` or ``"tibia"``.
+        name: ``"hip_link"``, ``"femur_link"`` or ``"tibia_link"``.
         joint: ``"abduction"``, ``"hip"`` or ``"knee"``.
         place: of the joint in the frame of the link before, the trunk for the first [m].
         pitch: rotation about y from that frame to the link's in the reference pose [rad].
@@ -19,7 +19,7 @@ class Link(NamedTuple):
         body: mass properties in the frame of the link.
     """
 
-    part: str
+    name: str
     joint: str
     place: Vector3
     pitch: float
@@ -32,7 +32,7 @@ def links_of(leg: Leg) -> tuple[Link, Link, Link]:
     forward, down = (0.0, -1.0, 0.0), (0.0, 0.0, -leg.femur_length)
     hip, femur, tibia = (leg.mass_properties(link) for link in (leg.hip, leg.femur, leg.tibia))
     return (
-        Link("hip", "abduction", leg.mount, 0.0, (1.0, 0.0, 0.0), hip),
-        Link("femur", "hip", leg.outward(leg.hip_offset), leg.femur_angle, forward, femur),
-        Link("tibia", "knee", down, -leg.tibia_angle, forward, tibia),
+        Link("hip_link", "abduction", leg.mount, 0.0, (1.0, 0.0, 0.0), hip),
+        Link("femur_link", "hip", leg.outward(leg.hip_offset), leg.femur_angle, forward, femur),
+        Link("tibia_link", "knee", down, -leg.tibia_angle, forward, tibia),
     )

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from exudyn_models.ground import Ground
+from exudyn_models.physics.coordinates import BASE
 from exudyn_models.physics.options import PlantOptions
 from exudyn_models.physics.plant import Plant
-from exudyn_models.physics.coordinates import BASE
 from exudyn_models.robot import RobotDescription, load_robot
 
 TICK = 1 / 60
