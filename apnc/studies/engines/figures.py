@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -29,6 +29,7 @@ COLUMNS: Final = {
     "late_speed_m_per_s": "speed of the last 10 s [m/s]",
     "stride_frequency_hz": "stride frequency [Hz]",
     "duty_factor_mean": "duty factor [1]",
+    "largest_late_error_rad": "largest phase error of the last 10 s [rad]",
 }
 """What is drawn over MI: column and title of its axis."""
 
@@ -36,30 +37,17 @@ HALF_TURNS: Final = {"tickvals": [0.0, np.pi], "ticktext": ["0", "π"]}
 
 
 def over_mi(rows: Sequence[Row]) -> list[Figure]:
-    """A figure per column, and one of the relative phases at the end."""
-    drawn = [
-        _figure(rows, column, title, lambda row, c=column: [row.get(c)])  # type: ignore[misc]
-        for column, title in COLUMNS.items()
-    ]
-    phases = _figure(rows, "phases", "relative phases at the end [rad]", _phases)
-    phases.layout["yaxis"] |= {**HALF_TURNS, "range": [-1.0, 4.2]}
-    return [*drawn, phases]
+    """A figure per column."""
+    return [_figure(rows, column, title) for column, title in COLUMNS.items()]
 
 
-def _phases(row: Row) -> list[object]:
-    return [row.get(f"phi_final_1{k}") for k in (2, 3, 4)]
-
-
-def _figure(
-    rows: Sequence[Row], key: str, title: str, entries: Callable[[Row], list[object]]
-) -> Figure:
+def _figure(rows: Sequence[Row], column: str, title: str) -> Figure:
     data: list[Trace] = []
     for engine in (name for name in STYLES if matching(rows, engine=name)):
         points = [
-            (f"{row['mi']:g}", float(value))
+            (f"{row['mi']:g}", float(row[column]))
             for row in matching(rows, engine=engine)
-            for value in entries(row)
-            if is_number(value) and isinstance(value, int | float)
+            if is_number(row.get(column))
         ]
         data += spread(points, *STYLES[engine])
     cells = [f"{mi:g}" for mi in cells_in(rows, "mi")]
@@ -69,7 +57,7 @@ def _figure(
         hovermode="closest",
     )  # fmt: skip
     heading = title.split(" [", maxsplit=1)[0].capitalize()
-    return Figure(f"engines-{key}", heading, "", data, layout, over_time=False)
+    return Figure(f"engines-{column}", heading, "", data, layout, over_time=False)
 
 
 def replay() -> Figure:
