@@ -8,6 +8,7 @@ from typing import Any, Final
 from xml.etree import ElementTree
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from exudyn_models.ground import Plane
 from exudyn_models.physics.start import start_coordinates
@@ -144,11 +145,16 @@ _UNTOUCHED: Final[Any] = {"contype": "0", "conaffinity": "0", "mass": "0"}
 
 
 def _inertial(body: Element, properties: MassProperties) -> None:
-    i = properties.inertia
-    _add(
-        body, "inertial", pos=_numbers(properties.com), mass=repr(float(properties.mass)),
-        fullinertia=_numbers((i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2])),
-    )  # fmt: skip
+    inertia, turn = properties.inertia, {}
+    if np.count_nonzero(inertia - np.diag(np.diag(inertia))):
+        # up to 3.6 MuJoCo itself finds the principal axes to six digits only
+        moments, axes = np.linalg.eigh(inertia)
+        axes[:, 2] *= np.linalg.det(axes)  # right-handed
+        inertia = np.diag(moments)
+        turn = {"quat": _numbers(Rotation.from_matrix(axes).as_quat(scalar_first=True))}
+    place, mass = _numbers(properties.com), repr(float(properties.mass))
+    diagonal = _numbers(np.diag(inertia))
+    _add(body, "inertial", turn, pos=place, mass=mass, diaginertia=diagonal)
 
 
 def _box(body: Element, center: Sequence[float], size: Sequence[float]) -> None:
