@@ -14,7 +14,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "apnc_core": set(),
     "build_fmu": {"apnc_core"},
     "exudyn_models": {"apnc_core"},
-    "apnc": {"apnc_core", "build_fmu", "exudyn_models"},
+    "mujoco_models": {"apnc_core", "exudyn_models"},
+    "apnc": {"apnc_core", "build_fmu", "exudyn_models", "mujoco_models"},
 }
 OUTSIDE_OF_CORE = {"numpy"}
 

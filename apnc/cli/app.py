@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from apnc.cli import bench, build, info, memory, study, system, walk
+from apnc.cli import bench, build, export_robot, info, memory, study, system, walk
 from apnc_core import __version__
 
 app = typer.Typer(
@@ -24,6 +24,7 @@ app.command("info")(info.info)
 app.add_typer(memory.app, name="memory")
 app.add_typer(study.app, name="study")
 app.command("bench")(bench.bench)
+app.command("export-robot")(export_robot.export_robot)
 
 
 @app.callback(invoke_without_command=True)

@@ -38,7 +38,18 @@ if TYPE_CHECKING:
 ENDED_EARLY: Final = 1
 """Exit code of a run that fell or diverged."""
 
-_PLAIN: Final = ("robot", "duration", "seed", "method", "preset", "rate", "step", "contact", "fmu")
+_PLAIN: Final = (
+    "robot",
+    "duration",
+    "seed",
+    "method",
+    "preset",
+    "rate",
+    "step",
+    "contact",
+    "engine",
+    "fmu",
+)
 _OVER: Final = (
     ("mi", "mi", float),
     ("turn", "turn", float),
@@ -68,7 +79,8 @@ def walk(
     reset: Annotated[Text, Option(help="Hold at the start: true, false *.")] = None,
     rate: Annotated[Number, Option(help="Update rate [Hz]; 60.0 if omitted.")] = None,
     step: Annotated[Number, Option(help="Longest integration step [s].")] = None,
-    contact: Annotated[Text, Option(help="compiled, exudyn; compiled if omitted.")] = None,
+    contact: Annotated[Text, Option(help="compiled, or the engine's; compiled if omitted.")] = None,
+    engine: Annotated[Text, Option(help="exudyn, mujoco; exudyn if omitted.")] = None,
     fmu: Annotated[Text, Option(help="This FMU instead of the built one.")] = None,
     output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),
     json_file: Annotated[File, Option("--json", help="Write the summary here as well.")] = None,

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import apnc_core
+from apnc.loop.engines import OWN_ENGINE, check_engine
 from apnc.loop.steps import Over, check_steps, steps_of, steps_text
 from apnc_core.enumerations import Method
 from apnc_core.presets import PRESETS, preset
@@ -54,6 +55,7 @@ class Experiment:
         rate: update rate of the controller [Hz].
         step: longest integration step of the plant [s].
         contact: contact law of the feet, see ``PlantOptions``.
+        engine: what integrates the equations of motion, ``exudyn`` or ``mujoco``.
         fmu: file of the controller; the built one if omitted.
 
     Raises:
@@ -74,6 +76,7 @@ class Experiment:
     rate: float = 60.0
     step: float = PlantOptions().step
     contact: str = PlantOptions().contact
+    engine: str = OWN_ENGINE
     fmu: str | None = None
 
     def __post_init__(self) -> None:
@@ -94,7 +97,8 @@ class Experiment:
         if not isinstance(self.ground, Surface):
             raise ValueError(f"ground = {self.ground!r} is not a ground")
         self._check_times()
-        PlantOptions(step=self.step, contact=self.contact)
+        check_engine(self.engine)
+        PlantOptions(step=self.step, contact=self.contact).check_contact(self.engine)
         self.parameters()
         # equal experiments are equal however their numbers came, and go into JSON
         own = {name: checked(name, value) for name, value in self.settings.items()}
@@ -216,6 +220,8 @@ class Experiment:
         }
         for name in ("preset", "settings", "method"):
             del content[name]  # the parameters say it all
+        if self.engine == OWN_ENGINE:
+            del content["engine"]  # keys are those from before there was a second one
         text = json.dumps(_plain(content), sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 

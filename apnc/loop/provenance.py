@@ -22,6 +22,6 @@ def what_was_run(experiment: Experiment) -> dict[str, Any]:
         "versions": {
             "apnc": apnc_core.__version__,
             "python": platform.python_version(),
-            **{name: version(name) for name in _LIBRARIES},
+            **{name: version(name) for name in sorted({*_LIBRARIES, experiment.engine})},
         },
     }

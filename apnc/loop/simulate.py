@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
+from apnc.loop.engines import plant_in
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuController
 from apnc.loop.plant import Plant, PlantError
 from apnc.loop.record import End, Record
 from apnc.loop.steps import Course
 from build_fmu.build import host_fmu
+from exudyn_models.physics.options import PlantOptions
 
 Progress = Callable[[float, FmuController], None]
 Stop = Callable[[], bool]
@@ -33,7 +35,7 @@ def simulate(
 
     Args:
         experiment: what is run.
-        plant: the robot at its start; made in Exudyn from the experiment if omitted.
+        plant: the robot at its start; made of the experiment in its engine if omitted.
         progress: called after every tick with the time [s] and the controller.
         stop: asked before every tick; True ends the run.
 
@@ -53,15 +55,16 @@ def simulate(
                 f"{path} is for {controller.n_legs} legs; robot '{robot.name}' has "
                 f"{len(robot.legs)}"
             )
-        return _run(experiment, plant or exudyn_plant(experiment), controller, progress, stop)
+        return _run(experiment, plant or plant_of(experiment), controller, progress, stop)
 
 
-def exudyn_plant(experiment: Experiment) -> Plant:
-    """The robot of an experiment in Exudyn, at its start."""
-    from exudyn_models.physics.options import PlantOptions  # noqa: PLC0415
-    from exudyn_models.physics.plant import Plant as ExudynPlant  # noqa: PLC0415  # takes seconds
+def plant_of(experiment: Experiment) -> Plant:
+    """The robot of an experiment in its engine, at its start.
 
-    return ExudynPlant(
+    Raises:
+        ValueError: the engine's package is not installed.
+    """
+    return plant_in(experiment.engine)(
         experiment.description,
         experiment.seed,
         options=PlantOptions(step=experiment.step, contact=experiment.contact),

@@ -17,7 +17,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension, MultiArrayLayout
 
 from apnc import Experiment
-from apnc.loop.simulate import exudyn_plant
+from apnc.loop.simulate import plant_of
 
 
 class Node:
@@ -27,7 +27,7 @@ class Node:
         experiment = Experiment(
             robot=rospy.get_param("~robot", "lilibot"), seed=int(rospy.get_param("~seed", 0))
         )
-        self.plant, self.Ts = exudyn_plant(experiment), experiment.Ts
+        self.plant, self.Ts = plant_of(experiment), experiment.Ts
         self.legs = self.plant.legs
         self.target = np.zeros((2, len(self.legs)))
         dimension = MultiArrayDimension(" ".join(self.legs), len(self.legs), len(self.legs))

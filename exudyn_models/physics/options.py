@@ -8,7 +8,8 @@ from typing import Final
 
 from exudyn_models.robot.model import GRAVITY
 
-CONTACTS: Final = ("compiled", "exudyn")
+COMPILED: Final = "compiled"
+"""The contact of ``physics.forces``, in any engine."""
 
 
 @dataclass(frozen=True)
@@ -22,8 +23,8 @@ class PlantOptions:
         clearance: height of the lowest foot above the ground at the start [m].
         start_hip, start_knee: joint angles of every leg at the start, relative to the reference
             pose [rad].
-        contact: ``compiled``, or ``exudyn`` for Exudyn's own, on level ground without obstacles,
-            to hold the compiled one against.
+        contact: ``compiled``, or the engine's name for its own, to hold the compiled one against:
+            ``exudyn`` on level ground without obstacles, ``mujoco`` on planes.
     """
 
     step: float = 1.0 / 1920.0
@@ -31,15 +32,22 @@ class PlantOptions:
     clearance: float = 0.0
     start_hip: float = 0.0
     start_knee: float = 0.0
-    contact: str = "compiled"
+    contact: str = COMPILED
 
     def __post_init__(self) -> None:
-        """Refuse a step that is not positive, values that are not finite, unknown contacts."""
-        if self.contact not in CONTACTS:
-            raise ValueError(f"contact '{self.contact}' is not one of {', '.join(CONTACTS)}")
+        """Refuse a step that is not positive and values that are not finite."""
         if not (math.isfinite(self.step) and self.step > 0.0):
             raise ValueError(f"step is {self.step}; allowed: a finite number above 0")
         for name in ("gravity", "clearance", "start_hip", "start_knee"):
             value = getattr(self, name)
             if not math.isfinite(value):
                 raise ValueError(f"{name} is {value}; allowed: a finite number")
+
+    def check_contact(self, engine: str) -> None:
+        """Refuse a contact that an engine does not have.
+
+        Raises:
+            ValueError: neither the compiled one nor the engine's own.
+        """
+        if self.contact not in (COMPILED, engine):
+            raise ValueError(f"contact '{self.contact}' is not one of {COMPILED}, {engine}")

@@ -11,8 +11,9 @@ from typing import Any, Final
 import numpy as np
 
 from exudyn_models.physics import forces
+from exudyn_models.physics.coordinates import BASE, JOINT_SIGN
 from exudyn_models.physics.engine import items
-from exudyn_models.physics.tree import BASE, JOINT_SIGN, Tree
+from exudyn_models.physics.tree import Tree
 from exudyn_models.robot.model import Array, Contact
 
 GROUND_RADIUS: Final = 1e6

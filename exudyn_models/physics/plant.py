@@ -1,247 +1,69 @@
-"""A legged robot on the ground, stepped from one control tick to the next."""
+"""A legged robot in Exudyn."""
 
 from __future__ import annotations
 
-import math
-from collections import deque
-from typing import Any
-
-import numpy as np
+from typing import Any, ClassVar
 
 from exudyn_models.channels import PlantError
-from exudyn_models.conditions import Conditions
-from exudyn_models.ground import Plane, Surface
 from exudyn_models.physics.engine import exu
-from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.legged import Engine, LeggedPlant, Setup
+from exudyn_models.physics.options import COMPILED
 from exudyn_models.physics.own_contact import add_own_contact, own_foot_forces
-from exudyn_models.physics.robot_forces import RobotForces
-from exudyn_models.physics.start import start_coordinates
-from exudyn_models.physics.tree import BASE, JOINT_SIGN, add_tree
-from exudyn_models.robot.model import Array, RobotDescription
-from exudyn_models.sensor.load import LoadSensor
-from exudyn_models.trace import Trace
+from exudyn_models.physics.tree import add_tree
+from exudyn_models.robot.model import Array
 
 
-class Plant:
-    """One robot in its own Exudyn system.
-
-    It stands parallel to the ground with its feet just above it, at rest. The same robot, seed,
-    ground, conditions and commands give the same motion bit for bit.
+class ExudynTree(Engine):
+    """The robot as a kinematic tree in its own Exudyn system, integrated by explicit Euler.
 
     Attributes:
-        n_legs: number of legs.
-        legs: their names.
-        mass: total mass with payload [kg].
-        time: simulated time [s].
+        mbs, solver: Exudyn's system and its solver.
+        tree: the items in it.
     """
 
-    def __init__(
-        self,
-        robot: RobotDescription,
-        seed: int = 0,
-        *,
-        options: PlantOptions | None = None,
-        ground: Surface | None = None,
-        conditions: Conditions | None = None,
-    ) -> None:
-        """Put the robot on the ground.
+    name: ClassVar[str] = "exudyn"
 
-        Args:
-            robot: the robot.
-            seed: chooses the sideways error of the centre of mass and the sensor noise.
-            options: start and integration.
-            ground: what it stands on; level and smooth if omitted.
-            conditions: payload, damage and the like; none if omitted.
-
-        Raises:
-            ValueError: conditions name a leg the robot does not have.
-            PlantError: Exudyn refused the model.
-        """
-        self._robot, self._options = robot, options or PlantOptions()
-        self._ground = ground or Plane()
-        self._conditions = conditions or Conditions()
-        self.legs = tuple(leg.name for leg in robot.legs)
-        self.n_legs = len(self.legs)
-        self.mass = robot.mass + self._conditions.payload
-        self.time = 0.0
-        body_seed, noise_seed = np.random.SeedSequence(seed).spawn(2)
-        self._sensor = LoadSensor(
-            robot.sensor, self.legs, robot.weight, np.random.default_rng(noise_seed)
-        )
-        self._reading = np.zeros(self.n_legs)
-        self._build(_side_offset(robot, np.random.default_rng(body_seed)))
-        self.set_conditions(self._conditions)
-
-    def _build(self, side_offset: float) -> None:
-        options, robot = self._options, self._robot
-        angles = np.array([0.0, options.start_hip, options.start_knee])
-        self._start = start_coordinates(robot, self._ground, angles, options.clearance)
-        coordinates = self._start.copy()
-        coordinates[2] += self._conditions.held_at or 0.0
-        own = options.contact == "exudyn"
-        if own and (self._ground.slope or not self._ground.flat):
+    def __init__(self, setup: Setup) -> None:
+        """Assemble the system; see ``Engine``."""
+        options, self._forces = setup.options, setup.forces
+        own = options.contact != COMPILED
+        if own and (setup.ground.slope or not setup.ground.flat):
             raise ValueError("contact 'exudyn' knows level ground without obstacles only")
-        self._forces = RobotForces(robot, self._ground, coordinates[BASE:], touches=not own)
-        self._commanded = coordinates[BASE:].reshape(-1, 3) * JOINT_SIGN
-        self._coming: deque[tuple[float, Array]] = deque()
+        self._contact = setup.robot.contact
         # The container owns the system: without this reference Exudyn frees it under our feet.
         self._container = exu.SystemContainer()
-        self._mbs: Any = self._container.AddSystem()
-        load = self._conditions.payload
-        body = robot.trunk.loaded(side_offset, load)
-        self._tree = add_tree(self._mbs, robot, body, options.gravity, coordinates, self._forces)
-        self._own_contact = add_own_contact(self._mbs, self._tree, robot.contact) if own else None
-        self._mbs.Assemble()
+        self.mbs: Any = self._container.AddSystem()
+        self.tree = add_tree(
+            self.mbs, setup.robot, setup.trunk, options.gravity, setup.start, setup.forces
+        )
+        self._own_contact = add_own_contact(self.mbs, self.tree, self._contact) if own else None
+        self.mbs.Assemble()
         self._settings = _solver_settings(options.step)
-        self._solver: Any = exu.MainSolverExplicit()
-        if not self._solver.InitializeSolver(self._mbs, self._settings):
+        self.solver: Any = exu.MainSolverExplicit()
+        if not self.solver.InitializeSolver(self.mbs, self._settings):
             raise PlantError("Exudyn refused the model")
-        self._q, self._v = coordinates.copy(), np.zeros_like(coordinates)
-        self._measure()
 
-    def set_conditions(self, conditions: Conditions) -> None:
-        """Change what is wrong with the robot, from now on.
+    def advance(self, end: float, steps: int, q: Array, v: Array) -> bool:
+        """Integrate; see ``Engine``."""
+        iteration = self.solver.it
+        iteration.maxStepSize = iteration.currentStepSize = self._forces.step
+        iteration.endTime = end
+        solved = self.solver.SolveSteps(self.mbs, self._settings)
+        data = self.mbs.systemData
+        q[:], v[:] = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+        return bool(solved)
 
-        Raises:
-            ValueError: an unknown leg, or another payload than the plant was built with.
-        """
-        conditions.check_legs(self.legs)
-        if conditions.payload != self._conditions.payload:
-            raise ValueError(
-                f"payload is {conditions.payload} kg; allowed: {self._conditions.payload} kg, "
-                "fixed when the plant was built"
-            )
-        self._conditions = conditions
-        self._damaged = [leg in conditions.damaged for leg in self.legs]
-        self._sensor.disturb(conditions)
-        self._forces.hold(self._held_pose(conditions.held_at))
-
-    def _held_pose(self, height: float | None) -> Array | None:
-        if height is None:
-            return None
-        pose = self._start[:BASE].copy()
-        pose[[0, 1, 3]] = self._q[[0, 1, 3]]
-        pose[2] += height
-        return pose
-
-    def grf(self) -> Array:
-        """Load of each foot as the sensors deliver it since the last tick [N], shape (n_legs,)."""
-        return self._reading.copy()
-
-    def advance(self, theta_hip: Array, theta_knee: Array, duration: float) -> None:
-        """Command the servos and integrate one control tick.
-
-        Args:
-            theta_hip, theta_knee: joint targets relative to the reference pose [rad], shape
-                (n_legs,); positive swings the leg forward and lifts the foot.
-            duration: length of the tick [s].
-
-        Raises:
-            ValueError: a target is not finite or has the wrong shape, or the duration is not
-                positive.
-            PlantError: the integration diverged.
-        """
-        targets = self._checked_targets(theta_hip, theta_knee)
-        if not (math.isfinite(duration) and duration > 0.0):
-            raise ValueError(f"duration is {duration}; allowed: a finite number above 0")
-        targets[self._damaged] = 0.0
-        if self._robot.servo.slew_rate > 0.0:
-            reach = self._robot.servo.slew_rate * duration
-            targets = np.clip(targets, self._commanded - reach, self._commanded + reach)
-        self._commanded = targets
-        self._coming.append((self.time + self._robot.servo.latency, targets * JOINT_SIGN))
-        self._integrate_to(self.time + duration)
-        self._measure()
-        load = self._felt_load()
-        self._reading[:] = self._sensor.update(self.time, load, duration)
-
-    def _checked_targets(self, theta_hip: Array, theta_knee: Array) -> Array:
-        targets = np.zeros((self.n_legs, 3))
-        for column, name, value in ((1, "theta_hip", theta_hip), (2, "theta_knee", theta_knee)):
-            if np.shape(value) != (self.n_legs,) or not np.isfinite(value).all():
-                raise ValueError(f"{name} is {value}; allowed: {self.n_legs} finite angles")
-            targets[:, column] = value
-        return targets
-
-    def _felt_load(self) -> Array:
-        if self._robot.sensor.component == "norm":
-            return np.asarray(np.linalg.norm(self._forces.force.reshape(-1, 3), axis=1))
-        return self._forces.load.copy()
-
-    def _integrate_to(self, end: float) -> None:
-        while self._coming and self._coming[0][0] < end:
-            arrival, targets = self._coming.popleft()
-            if arrival > self.time:
-                self._integrate(arrival)
-            self._forces.target[:] = targets.ravel()
-        self._integrate(end)
-
-    def _integrate(self, end: float) -> None:
-        duration = end - self.time
-        steps = max(1, math.ceil(duration / self._options.step - 1e-9))
-        iteration = self._solver.it
-        iteration.maxStepSize = iteration.currentStepSize = self._forces.step = duration / steps
-        iteration.endTime = self.time = end
-        solved = self._solver.SolveSteps(self._mbs, self._settings)
-        data = self._mbs.systemData
-        self._q[:], self._v[:] = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
-        if not solved or not np.isfinite(self._q).all():
-            raise PlantError(f"the motion diverged before t = {self.time:.4f} s")
-
-    def _measure(self) -> None:
-        self._forces.measure(self._q, self._v)
-        if self._own_contact is not None:
-            radius = self._robot.contact.foot_radius
-            force = own_foot_forces(self._own_contact, self._q, self._forces.geometry, radius)
-            self._forces.force[:] = force.ravel()
-            self._forces.load[:] = force[:, 2]
-
-    def trace(self) -> Trace:
-        """A recorder of every channel in ``PLANT_CHANNELS``, a row per tick."""
-        return Trace(self._parts, self._channels)
-
-    def sample(self) -> dict[str, Array]:
-        """One sample of every channel in ``PLANT_CHANNELS``, at the current time."""
-        channels = self._channels(np.concatenate(self._parts)[np.newaxis])
-        return {name: values[0] for name, values in channels.items()}
-
-    @property
-    def _parts(self) -> tuple[Array, ...]:
-        return (self._q, self._v, self._forces.result, self._forces.work, self._reading)
-
-    def _channels(self, rows: Array) -> dict[str, Array]:
-        n, size = self.n_legs, BASE + 3 * self.n_legs
-        ends = np.cumsum([size, size, 3 * n, 3 * n, 3 * n, n, 3 * n])
-        q, v, torque, foot, force, _, work, reading = np.split(rows, ends, axis=1)
-
-        def per_leg(values: Array) -> Array:
-            return values.reshape(-1, n, 3)
-
-        return {
-            "position": q[:, :3].copy(),
-            "rpy": q[:, [5, 4, 3]],
-            "velocity": v[:, :3].copy(),
-            "joint_angle": per_leg(q[:, BASE:]) * JOINT_SIGN,
-            "joint_speed": per_leg(v[:, BASE:]) * JOINT_SIGN,
-            "joint_torque": per_leg(torque) * JOINT_SIGN,
-            "joint_work": per_leg(work.copy()),
-            "foot_position": per_leg(foot.copy()),
-            "foot_force": per_leg(force.copy()),
-            "grf": reading.copy(),
-        }
-
-    @property
-    def fell(self) -> bool:
-        """Whether the trunk is tipped by more than 60 degrees or touches the ground with a corner.
-
-        The tilt is measured against the normal of the ground.
-        """
-        return self._forces.fallen(self._q)
+    def own_contact(self, q: Array, force: Array, load: Array) -> None:
+        """Forces of Exudyn's own contact; see ``Engine``."""
+        radius = self._contact.foot_radius
+        found = own_foot_forces(self._own_contact, q, self._forces.geometry, radius)
+        force[:], load[:] = found.ravel(), found[:, 2]
 
 
-def _side_offset(robot: RobotDescription, random: np.random.Generator) -> float:
-    side = random.choice([-1.0, 1.0])
-    return float(side * robot.trunk.com_side_offset * random.uniform(0.75, 1.25))
+class Plant(LeggedPlant):
+    """One robot in its own Exudyn system; see :class:`LeggedPlant`."""
+
+    engine = ExudynTree
 
 
 def _solver_settings(step: float) -> Any:

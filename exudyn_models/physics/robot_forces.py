@@ -10,8 +10,8 @@ import numpy as np
 
 from exudyn_models.ground.surface import Surface
 from exudyn_models.physics import forces
+from exudyn_models.physics.coordinates import BASE
 from exudyn_models.physics.touching import touch_of
-from exudyn_models.physics.tree import BASE
 from exudyn_models.robot.model import Array, RobotDescription
 
 HOLD_GAINS = (5000.0, 200.0, 50.0, 2.0)
@@ -40,8 +40,8 @@ def leg_geometry(robot: RobotDescription) -> Array:
 
 
 class RobotForces:
-    """What acts on the robot besides gravity: called by Exudyn once per step, by the plant once
-    per tick.
+    """What acts on the robot besides gravity: called by the engine once per step, by the
+    plant once per tick.
 
     Attributes:
         target: commanded tree coordinates of the joints [rad], shape (3 n_legs,); written by the
@@ -64,7 +64,7 @@ class RobotForces:
             robot: geometry, servo and contact.
             ground: the ground.
             target: initial commanded tree coordinates of the joints [rad], shape (3 n_legs,).
-            touches: whether feet and ground touch here, or are left to Exudyn's own contact.
+            touches: whether feet and ground touch here, or are left to the engine's own contact.
         """
         servo, contact = robot.servo, robot.contact
         n = len(robot.legs)
@@ -122,9 +122,18 @@ class RobotForces:
         """Generalized forces, as Exudyn asks for them."""
         self._pack(self._q.data, 0, *q)
         self._pack(self._v.data, 0, *v)
+        generalized: list[float] = self.acting(self._q, self._v).tolist()
+        return generalized
+
+    def acting(self, q: Array, v: Array) -> Array:
+        """Generalized forces at the start of an integration step, shape (6 + 3 n_legs,).
+
+        Pitfall: the work of the servos during the step is added, so ask once per step; the array
+        is written anew at the next call.
+        """
         forces.evaluate(
-            self._q,
-            self._v,
+            q,
+            v,
             self.target,
             self.geometry,
             *self._ground,
@@ -132,8 +141,7 @@ class RobotForces:
             self.work,
             self._generalized,
         )
-        generalized: list[float] = self._acting.tolist()
-        return generalized
+        return self._acting
 
     def measure(self, q: Array, v: Array) -> None:
         """Evaluate at coordinates and speeds of the tree and keep the result."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from exudyn_models.ground.surface import Surface
+from exudyn_models.physics.coordinates import JOINT_SIGN
 from exudyn_models.physics.forces import leg_points
 from exudyn_models.physics.robot_forces import leg_geometry
-from exudyn_models.physics.tree import JOINT_SIGN
 from exudyn_models.robot.model import Array, RobotDescription
 
 

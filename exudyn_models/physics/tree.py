@@ -9,15 +9,10 @@ from typing import Any, Final
 
 import numpy as np
 
+from exudyn_models.physics.coordinates import BASE
 from exudyn_models.physics.engine import exu, items
+from exudyn_models.robot.links import links_of
 from exudyn_models.robot.model import Array, Leg, MassProperties, RobotDescription, Vector3
-
-BASE: Final = 6
-"""Coordinates of the floating base: x, y, z [m], yaw, pitch, roll [rad]; the joints follow."""
-
-JOINT_SIGN: Final = np.array([1.0, -1.0, -1.0])
-"""Tree coordinate per joint angle: Exudyn turns about +y, a leg that swings forward about -y."""
-
 
 MASSLESS: Final = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
 
@@ -81,7 +76,8 @@ def add_tree(
         robot: the robot.
         trunk: mass properties of the trunk with what it carries.
         gravity: downward acceleration [m/s^2].
-        start: initial coordinates, shape (6 + 3 n_legs,), see ``BASE`` and ``JOINT_SIGN``.
+        start: initial coordinates, shape (6 + 3 n_legs,), see
+            ``coordinates``.
         forces: called by Exudyn for the generalized forces besides gravity.
     """
     links = _Links()
@@ -119,22 +115,12 @@ def _add_base(links: _Links, trunk: MassProperties) -> int:
 
 
 def _add_leg(links: _Links, leg: Leg, trunk: int) -> int:
-    kind = exu.JointType
-    hip = links.add(kind.RevoluteX, trunk, leg.mount, body=leg.mass_properties(leg.hip))
-    femur = links.add(
-        kind.RevoluteY,
-        hip,
-        leg.outward(leg.hip_offset),
-        pitch=leg.femur_angle,
-        body=leg.mass_properties(leg.femur),
-    )
-    return links.add(
-        kind.RevoluteY,
-        femur,
-        (0.0, 0.0, -leg.femur_length),
-        pitch=-leg.tibia_angle,
-        body=leg.mass_properties(leg.tibia),
-    )
+    at = trunk
+    for link in links_of(leg):
+        about_x = link.axis[0] != 0.0
+        joint = exu.JointType.RevoluteX if about_x else exu.JointType.RevoluteY
+        at = links.add(joint, at, link.place, link.pitch, link.body)
+    return at
 
 
 def _tree_object(links: _Links, node: Any, gravity: float, forces: Forces) -> Any:

@@ -9,10 +9,11 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from apnc.loop.engines import OWN_ENGINE, plant_in
 from apnc.loop.record import Record
 from apnc.studies.robots import changed, constant
 from apnc.studies.rows import Row
-from exudyn_models.physics.options import PlantOptions
+from exudyn_models.physics.options import COMPILED, PlantOptions
 from exudyn_models.robot import RobotDescription, load_robot
 
 Array = NDArray[np.float64]
@@ -43,17 +44,21 @@ def robot(depth: float) -> RobotDescription:
     return changed(load_robot("lilibot"), "contact.damping_depth", constant(depth))
 
 
-@lru_cache
-def trot(depth: float, steps: int) -> Trot:
-    """Trot on fixed phases, integrated with ``steps`` steps per tick."""
-    from exudyn_models.physics.plant import Plant  # noqa: PLC0415  # takes seconds
-
-    plant = Plant(robot(depth), options=PlantOptions(step=TICK / steps))
+def commands(tick: int) -> tuple[Array, Array]:
+    """Commands of hip and knee [rad], shape (4,), of the trot at a tick."""
     side = np.array([1.0, -1.0, -1.0, 1.0])
+    hip = 0.13 * math.sin(0.12 * tick) * side - 0.111
+    return hip, 0.08 * math.cos(0.12 * tick) * side - 0.039
+
+
+@lru_cache
+def trot(depth: float, steps: int, engine: str = OWN_ENGINE, contact: str = COMPILED) -> Trot:
+    """Trot on fixed phases, integrated with ``steps`` steps per tick."""
+    options = PlantOptions(step=TICK / steps, contact=contact)
+    plant = plant_in(engine)(robot(depth), options=options)
     forces = []
     for tick in range(round(OPEN_LOOP / TICK)):
-        hip = 0.13 * math.sin(0.12 * tick) * side - 0.111
-        knee = 0.08 * math.cos(0.12 * tick) * side - 0.039
+        hip, knee = commands(tick)
         for _ in range(steps):
             plant.advance(hip, knee, TICK / steps)
             if tick >= 60:

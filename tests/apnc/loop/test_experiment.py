@@ -99,6 +99,8 @@ CHANGES: list[dict[str, Any]] = [
     {"rate": 50},
     {"step": 1e-3},
     {"contact": "exudyn"},
+    {"engine": "mujoco"},
+    {"engine": "mujoco", "contact": "mujoco"},
 ]
 
 

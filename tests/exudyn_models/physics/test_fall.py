@@ -146,7 +146,7 @@ def test_a_robot_that_tips_over_falls_before_the_angles_break_down(slope: float)
 def test_a_robot_that_turns_over_its_back_is_seen_in_time() -> None:
     # Pushed in the air without gravity: it pitches freely, at 6 rad/s.
     plant = Plant(ROBOT, options=PlantOptions(clearance=2.0, gravity=0.0))
-    plant._mbs.systemData.SetODE2Coordinates_t(np.eye(18)[4] * 6.0)
+    plant._engine.mbs.systemData.SetODE2Coordinates_t(np.eye(18)[4] * 6.0)
     seen = []
     for _ in range(20):
         plant.advance(ZERO, ZERO, TICK)

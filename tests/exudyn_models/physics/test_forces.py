@@ -8,9 +8,9 @@ import pytest
 
 from exudyn_models.ground import Ground, Kerb, Plane, Surface, Waves
 from exudyn_models.ground.obstacles import TILE
+from exudyn_models.physics.coordinates import BASE
 from exudyn_models.physics.forces import contact_force
 from exudyn_models.physics.robot_forces import RobotForces
-from exudyn_models.physics.tree import BASE
 from exudyn_models.robot import load_robot
 
 ROBOT = load_robot("lilibot")

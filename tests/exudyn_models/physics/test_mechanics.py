@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from exudyn_models.ground import Ground
+from exudyn_models.physics.coordinates import BASE
 from exudyn_models.physics.options import PlantOptions
 from exudyn_models.physics.plant import Plant
-from exudyn_models.physics.tree import BASE
 from exudyn_models.robot import RobotDescription, load_robot
 
 TICK = 1 / 60
@@ -19,8 +19,8 @@ ZERO = np.zeros(4)
 
 
 def mass_matrix(plant: Plant) -> np.ndarray:
-    plant._solver.ComputeMassMatrix(plant._mbs)
-    return np.array(plant._solver.GetSystemMassMatrix())
+    plant._engine.solver.ComputeMassMatrix(plant._engine.mbs)
+    return np.array(plant._engine.solver.GetSystemMassMatrix())
 
 
 def energy(plant: Plant, robot: RobotDescription, gravity: float) -> float:

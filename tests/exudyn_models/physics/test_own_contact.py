@@ -57,4 +57,4 @@ def test_own_contact_takes_a_ground_without_obstacles() -> None:
 
 def test_unknown_contact_is_named() -> None:
     with pytest.raises(ValueError, match="contact 'glue' is not one of compiled, exudyn"):
-        PlantOptions(contact="glue")
+        Plant(ROBOT, options=PlantOptions(contact="glue"))

@@ -106,8 +106,8 @@ def test_recorded_feet_are_where_the_engine_has_them() -> None:
     for tick in range(90):
         trot(plant, tick)
     markers = [
-        plant._mbs.GetMarkerOutput(foot, variableType=exu.OutputVariableType.Position)
-        for foot in plant._tree.feet
+        plant._engine.mbs.GetMarkerOutput(foot, variableType=exu.OutputVariableType.Position)
+        for foot in plant._engine.tree.feet
     ]
     np.testing.assert_allclose(plant.sample()["foot_position"], markers, atol=1e-12)
 
@@ -198,7 +198,7 @@ def test_time_adds_up_over_uneven_ticks() -> None:
     for duration in (TICK, 0.01, 1e-4, 0.0333, 1e-6):
         plant.advance(np.zeros(4), np.zeros(4), duration)
     assert plant.time == pytest.approx(TICK + 0.01 + 1e-4 + 0.0333 + 1e-6, abs=1e-15)
-    assert plant._mbs.systemData.GetTime() == pytest.approx(plant.time, abs=1e-12)
+    assert plant._engine.mbs.systemData.GetTime() == pytest.approx(plant.time, abs=1e-12)
 
 
 def test_a_fallen_robot_is_noticed() -> None:

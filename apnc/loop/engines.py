@@ -1,0 +1,45 @@
+"""Engines by name; nothing heavy is imported before one is asked for."""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from exudyn_models.physics.legged import LeggedPlant
+
+ENGINES: Final = {"exudyn": "exudyn_models.physics.plant", "mujoco": "mujoco_models.plant"}
+"""Module of the plant in each engine."""
+
+OWN_ENGINE: Final = "exudyn"
+"""The engine that walks if none is named."""
+
+
+def check_engine(name: str) -> None:
+    """Refuse an engine that is not there.
+
+    Raises:
+        ValueError: an unknown name.
+    """
+    if name not in ENGINES:
+        raise ValueError(f"engine '{name}' is not one of {', '.join(ENGINES)}")
+
+
+def plant_in(engine: str) -> type[LeggedPlant]:
+    """The plant in an engine.
+
+    Raises:
+        ValueError: the engine's package is not installed.
+    """
+    try:
+        plant: type[LeggedPlant] = importlib.import_module(ENGINES[engine]).Plant
+    except ModuleNotFoundError as error:
+        if error.name != engine:
+            raise
+        raise ValueError(needs(engine)) from None
+    return plant
+
+
+def needs(package: str) -> str:
+    """What to say where a package is missing that an extra of its name brings."""
+    return f"'{package}' is not installed; pip install \"apnc[{package}]\" brings it"

@@ -1,0 +1,78 @@
+"""Does the gait form in another engine, and with another contact, as it does in Exudyn?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from apnc.loop.experiment import Experiment
+from apnc.loop.simulate import simulate
+from apnc.report.figure import Figure
+from apnc.studies.engines import figures
+from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching, successes, values
+from apnc.studies.statistics import rate
+from apnc.studies.study import WALK_S, Study
+from apnc.studies.table import markdown, middle
+from exudyn_models.physics.options import COMPILED
+
+MI_VALUES: Final = tuple(round(0.06 + 0.02 * i, 2) for i in range(12))
+
+ENGINES: Final = {
+    "exudyn": ("exudyn", COMPILED),
+    "mujoco": ("mujoco", COMPILED),
+    "mujoco_contact": ("mujoco", "mujoco"),
+}
+"""Engine and contact by the name that the grid has for both."""
+
+SHOWN_MI: Final = 0.15
+"""MI of the walk that is drawn over time."""
+
+
+def experiment(method: str, seed: int, engine: str, mi: float) -> Experiment:
+    """A walk in an engine."""
+    name, contact = ENGINES[engine]
+    return Experiment(
+        method=method, seed=seed, mi=mi, duration=WALK_S, engine=name, contact=contact
+    )
+
+
+def table(rows: Sequence[Row]) -> str:
+    """A line per engine and MI."""
+    cells = [(mi, engine) for mi in cells_in(rows, "mi") for engine in ENGINES]
+    groups = [(*cell, matching(rows, mi=cell[0], engine=cell[1])) for cell in cells]
+    return markdown(_line(*group) for group in groups if group[2])
+
+
+def _line(mi: float, engine: str, rows: list[Row]) -> dict[str, str]:
+    phases = [
+        middle([row[name] for row in rows if is_number(row.get(name))], 2)
+        for name in ("phi_final_12", "phi_final_13", "phi_final_14")
+    ]
+    return {
+        "MI": f"{mi:.2f}",
+        "engine": figures.STYLES[engine][0],
+        "trot kept, strict (95 % interval)": str(rate(successes(rows))),
+        "strict time [s]": middle(values(rows, STRICT), 1),
+        "speed [m/s]": middle(values(rows, "late_speed_m_per_s"), 3),
+        "stride [Hz]": middle(values(rows, "stride_frequency_hz"), 2),
+        "duty factor": middle(values(rows, "duty_factor_mean"), 2),
+        "phases at the end [rad]": "; ".join(phases),
+        "fell": str(len(matching(rows, fell=True))),
+    }
+
+
+def scenes() -> list[Figure]:
+    """The replay over the step, and one walk in each engine."""
+    records = {name: simulate(experiment("apnc", 1, name, SHOWN_MI)) for name in ENGINES}
+    return [figures.walks(records), figures.replay()]
+
+
+STUDY: Final = Study(
+    "engines",
+    experiment,
+    {"engine": tuple(ENGINES), "mi": MI_VALUES},
+    methods=("apnc",),
+    figures=figures.over_mi,
+    scenes=scenes,
+    table=table,
+)

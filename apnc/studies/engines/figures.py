@@ -1,0 +1,96 @@
+"""Engines beside each other over MI, the replay over the step, and one walk in each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+
+from apnc.loop.record import Record
+from apnc.report import theme
+from apnc.report.encoding import float32
+from apnc.report.figure import Figure, Trace
+from apnc.report.panels import line
+from apnc.studies.contact.measure import TICK
+from apnc.studies.engines.replay import STEPS, distances, order_of
+from apnc.studies.plots import spread
+from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
+
+STYLES: Final = {
+    "exudyn": ("Exudyn", theme.BLUE, "circle"),
+    "mujoco": ("MuJoCo", theme.ORANGE, "diamond"),
+    "mujoco_contact": ("MuJoCo, its own contact", theme.GREEN, "triangle-up"),
+}
+"""Label, colour and symbol by name of the engine."""
+
+COLUMNS: Final = {
+    STRICT: "convergence time, strict [s]",
+    "late_speed_m_per_s": "speed of the last 10 s [m/s]",
+    "stride_frequency_hz": "stride frequency [Hz]",
+    "duty_factor_mean": "duty factor [1]",
+    "largest_late_error_rad": "largest phase error of the last 10 s [rad]",
+}
+"""What is drawn over MI: column and title of its axis."""
+
+HALF_TURNS: Final = {"tickvals": [0.0, np.pi], "ticktext": ["0", "π"]}
+
+
+def over_mi(rows: Sequence[Row]) -> list[Figure]:
+    """A figure per column."""
+    return [_figure(rows, column, title) for column, title in COLUMNS.items()]
+
+
+def _figure(rows: Sequence[Row], column: str, title: str) -> Figure:
+    data: list[Trace] = []
+    for engine in (name for name in STYLES if matching(rows, engine=name)):
+        points = [
+            (f"{row['mi']:g}", float(row[column]))
+            for row in matching(rows, engine=engine)
+            if is_number(row.get(column))
+        ]
+        data += spread(points, *STYLES[engine])
+    cells = [f"{mi:g}" for mi in cells_in(rows, "mi")]
+    x = theme.axis("MI [1]", type="category", categoryorder="array", categoryarray=cells)
+    layout = theme.layout(
+        320, xaxis=x, yaxis=theme.axis(title), boxmode="group", scattermode="group",
+        hovermode="closest",
+    )  # fmt: skip
+    heading = title.split(" [", maxsplit=1)[0].capitalize()
+    return Figure(f"engines-{column}", heading, "", data, layout, over_time=False)
+
+
+def replay() -> Figure:
+    """Distance between the engines after a second of the same commands, over the step."""
+    found = 1e3 * distances()
+    step = 1e3 * TICK / np.array(STEPS)
+    order = order_of(STEPS, found)
+    measured = line(found, "measured", theme.BLUE) | {"mode": "lines+markers"}
+    first = line(found[-1] * step / step[-1], "first order", theme.GREY, dash="dash")
+    data = [trace | {"x": float32(step)} for trace in (first, measured)]
+    layout = theme.layout(
+        340,
+        xaxis=theme.axis("step [ms]", type="log"),
+        yaxis=theme.axis("distance after 1 s [mm]", type="log"),
+        hovermode="closest",
+    )
+    note = f"Trot on fixed phases, the same commands in both engines. Order {order:.2f}."
+    title = "From one engine to the other"
+    return Figure("engines-replay", title, note, data, layout, over_time=False)
+
+
+def walks(records: Mapping[str, Record]) -> Figure:
+    """Relative phases of one walk in each engine, by its name."""
+    data: list[Trace] = []
+    for engine, record in records.items():
+        name, colour, _ = STYLES[engine]
+        phases = np.angle(np.exp(1j * (record.controller["phi"] + 1.0))) - 1.0
+        phases[phases < -1.0] += 2.0 * np.pi
+        for k in range(phases.shape[1]):
+            group = {"legendgroup": engine, "showlegend": k == 0, "x": float32(record.time)}
+            data.append(line(phases[:, k], name, colour, width=1.2) | group)
+    some = next(iter(records.values())).experiment
+    axis = theme.axis("φ12, φ13, φ14 [rad]", **HALF_TURNS)
+    layout = theme.layout(320, xaxis=theme.axis("time [s]"), yaxis=axis)
+    title, note = "The gait forms", f"MI {some.mi:g}, seed {some.seed}."
+    return Figure("engines-walks", title, note, data, layout, over_time=False)

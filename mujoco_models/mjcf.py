@@ -1,0 +1,234 @@
+"""Robots as MJCF text, MuJoCo's format; nothing of MuJoCo is needed to write it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import cos, sin
+from typing import Any, Final
+from xml.etree import ElementTree
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from exudyn_models.ground import Plane
+from exudyn_models.physics.start import start_coordinates
+from exudyn_models.robot.links import links_of
+from exudyn_models.robot.model import GRAVITY, Leg, MassProperties, RobotDescription
+from mujoco_models.contact import IMPRATIO, Pair
+
+SERVOS: Final = ("position", "dcmotor")
+"""How the servos are written, see :func:`robot_mjcf`."""
+
+_BASE: Final = (
+    ("slide", "x", "1 0 0"),
+    ("slide", "y", "0 1 0"),
+    ("slide", "z", "0 0 1"),
+    ("hinge", "yaw", "0 0 1"),
+    ("hinge", "pitch", "0 1 0"),
+    ("hinge", "roll", "1 0 0"),
+)
+_STEP: Final = 1.0 / 1920.0
+_RUBBER, _PLASTIC = "0.15 0.15 0.15 1", "0.55 0.6 0.65 1"
+
+Element = ElementTree.Element
+_add = ElementTree.SubElement
+
+
+def tree_mjcf(
+    robot: RobotDescription, trunk: MassProperties, slope: float, pairs: Sequence[Pair]
+) -> str:
+    """The robot in the coordinates of ``exudyn_models.physics.coordinates``, for our own plant.
+
+    The base has three slides and three hinges, hip and knee turn about +y, and there are no
+    actuators: all forces come from outside.
+
+    Args:
+        robot: the robot.
+        trunk: mass properties of its trunk with what it carries.
+        slope: rise of the plane along x [rad].
+        pairs: contact of every foot with the plane; none for no plane and no contact.
+    """
+    root, body = _model(robot)
+    for kind, name, axis in _BASE:
+        _add(body, "joint", name=name, type=kind, axis=axis)
+    _inertial(body, trunk)
+    for leg in robot.legs:
+        _leg(body, leg, robot, tree=True)
+    _ground(root, slope, robot, pairs)
+    return _text(root)
+
+
+def robot_mjcf(robot: RobotDescription, pairs: Sequence[Pair], *, servo: str = "position") -> str:
+    """The robot for other users: free base, servos, sensors, a level ground and something to see.
+
+    Joint angles, their signs and the reference pose are ours, see ``exudyn_models.channels``.
+
+    Args:
+        robot: the robot.
+        pairs: contact of every foot with the ground.
+        servo: ``position`` for MuJoCo of any age: stiffness, damping and stall torque, but the
+            line from stall torque to no-load speed is a mere number in ``custom``; or ``dcmotor``
+            for MuJoCo 3.12 and newer, which has that line too.
+
+    Raises:
+        ValueError: an unknown servo.
+    """
+    if servo not in SERVOS:
+        raise ValueError(f"servo '{servo}' is not one of {', '.join(SERVOS)}")
+    root, body = _model(robot)
+    body.set("pos", _numbers(start_coordinates(robot, Plane(), np.zeros(3), 0.0)[:3]))
+    _add(body, "freejoint", name="base")
+    trunk = robot.trunk
+    _inertial(body, trunk.loaded(0.0, 0.0))
+    _box(body, trunk.center, trunk.body.size)
+    _add(body, "site", name="imu")
+    for leg in robot.legs:
+        _leg(body, leg, robot, tree=False)
+    _ground(root, 0.0, robot, pairs)
+    _actuators(root, robot, servo)
+    _sensors(root, robot)
+    return _text(root)
+
+
+def joints_of(robot: RobotDescription) -> list[str]:
+    """Names of the joints, leg by leg from the trunk outward."""
+    return [f"{leg.name}_{link.joint}" for leg in robot.legs for link in links_of(leg)]
+
+
+def foot_of(leg: Leg) -> str:
+    """Name of the ball and the site of a foot."""
+    return f"{leg.name}_foot"
+
+
+def _model(robot: RobotDescription) -> tuple[Element, Element]:
+    """Root of a model and its trunk."""
+    root = Element("mujoco", model=robot.name)
+    _add(root, "compiler", angle="radian", autolimits="true", inertiafromgeom="false")
+    _add(
+        root,
+        "option",
+        timestep=repr(_STEP),
+        gravity=_numbers((0.0, 0.0, -GRAVITY)),
+        integrator="implicitfast",
+        cone="elliptic",
+        impratio=repr(IMPRATIO),
+    )
+    world = _add(root, "worldbody")
+    return root, _add(world, "body", name="trunk")
+
+
+def _leg(trunk: Element, leg: Leg, robot: RobotDescription, *, tree: bool) -> None:
+    at = trunk
+    for link, box in zip(links_of(leg), (leg.hip, leg.femur, leg.tibia), strict=True):
+        turn = (cos(link.pitch / 2.0), 0.0, sin(link.pitch / 2.0), 0.0)
+        at = _add(
+            at, "body", name=f"{leg.name}_{link.name}",
+            pos=_numbers(link.place), quat=_numbers(turn),
+        )  # fmt: skip
+        _add(
+            at, "joint", name=f"{leg.name}_{link.joint}",
+            axis=_numbers(map(abs, link.axis) if tree else link.axis),
+            armature=repr(robot.servo.reflected_inertia),
+        )  # fmt: skip
+        _inertial(at, link.body)
+        if not tree:
+            _box(at, leg.outward(box.com), box.size)
+    foot = {"pos": _numbers((0.0, 0.0, -leg.tibia_length)), "type": "sphere"}
+    radius = robot.contact.foot_radius
+    _add(at, "geom", foot, name=foot_of(leg), size=repr(radius), rgba=_RUBBER, **_UNTOUCHED)
+    # the load sensor sums the contacts inside its site: a little more than the ball itself
+    _add(at, "site", foot, name=foot_of(leg), size=repr(1.5 * radius), rgba="0 0 0 0")
+
+
+_UNTOUCHED: Final[Any] = {"contype": "0", "conaffinity": "0", "mass": "0"}
+"""Of every geom: feet touch the ground, as pairs, and nothing else touches anything."""
+
+
+def _inertial(body: Element, properties: MassProperties) -> None:
+    inertia, turn = properties.inertia, {}
+    if np.count_nonzero(inertia - np.diag(np.diag(inertia))):
+        # up to 3.6 MuJoCo itself finds the principal axes to six digits only
+        moments, axes = np.linalg.eigh(inertia)
+        axes[:, 2] *= np.linalg.det(axes)  # right-handed
+        inertia = np.diag(moments)
+        turn = {"quat": _numbers(Rotation.from_matrix(axes).as_quat(scalar_first=True))}
+    place, mass = _numbers(properties.com), repr(float(properties.mass))
+    diagonal = _numbers(np.diag(inertia))
+    _add(body, "inertial", turn, pos=place, mass=mass, diaginertia=diagonal)
+
+
+def _box(body: Element, center: Sequence[float], size: Sequence[float]) -> None:
+    half = _numbers(edge / 2.0 for edge in size)
+    _add(body, "geom", type="box", pos=_numbers(center), size=half, rgba=_PLASTIC, **_UNTOUCHED)
+
+
+def _ground(root: Element, slope: float, robot: RobotDescription, pairs: Sequence[Pair]) -> None:
+    if not pairs:
+        return
+    world = root.find("worldbody")
+    assert world is not None
+    turn = (cos(slope / 2.0), 0.0, -sin(slope / 2.0), 0.0)
+    _add(
+        world, "geom", name="ground", type="plane", size="5 5 0.1", quat=_numbers(turn),
+        rgba="0.9 0.9 0.9 1", **_UNTOUCHED,
+    )  # fmt: skip
+    contact = _add(root, "contact")
+    for leg, pair in zip(robot.legs, pairs, strict=True):
+        d, mu = pair.impedance, robot.contact.friction
+        _add(
+            contact, "pair", geom1="ground", geom2=foot_of(leg), condim="3",
+            friction=_numbers((mu, mu, 0.0, 0.0, 0.0)),
+            solimp=_numbers((d, d, 0.001, 0.5, 2.0)),
+            solref=_numbers(-value for value in pair.normal),
+            solreffriction=_numbers(-value for value in pair.along),
+        )  # fmt: skip
+
+
+def _actuators(root: Element, robot: RobotDescription, servo: str) -> None:
+    motors, of = robot.servo, _add(root, "actuator")
+    stall, speed = motors.stall_torque, motors.no_load_speed
+    if servo == "dcmotor":
+        # the supply voltage is free: 1 V gives the same line
+        gains = {
+            "nominal": _numbers((1.0, stall, speed)),
+            "saturation": _numbers((stall, 0.0, 0.0)),
+            "input": "pos",
+            "controller": _numbers((motors.stiffness, 0.0, motors.damping, 0.0, 0.0, 1.0)),
+        }
+    else:
+        gains = {
+            "kp": repr(motors.stiffness),
+            "kv": repr(motors.damping),
+            "forcerange": _numbers((-stall, stall)),
+        }
+        _add(_add(root, "custom"), "numeric", name="no_load_speed", data=repr(speed))
+    for joint in joints_of(robot):
+        _add(of, servo, gains, name=joint, joint=joint)
+
+
+def _sensors(root: Element, robot: RobotDescription) -> None:
+    of = _add(root, "sensor")
+    for leg in robot.legs:
+        _add(of, "touch", name=f"{leg.name}_grf", site=foot_of(leg))
+    for joint in joints_of(robot):
+        _add(of, "jointpos", name=f"{joint}_angle", joint=joint)
+        _add(of, "jointvel", name=f"{joint}_speed", joint=joint)
+        _add(of, "actuatorfrc", name=f"{joint}_torque", actuator=joint)
+    for kind, name in (
+        ("framepos", "position"),
+        ("framequat", "orientation"),
+        ("framelinvel", "velocity"),
+    ):
+        _add(of, kind, name=name, objtype="xbody", objname="trunk")
+    _add(of, "gyro", name="gyro", site="imu")
+    _add(of, "accelerometer", name="accelerometer", site="imu")
+
+
+def _numbers(values: Iterable[float]) -> str:
+    """Numbers with every digit they have, and no minus zero."""
+    return " ".join(repr(float(value) + 0.0) for value in values)
+
+
+def _text(root: Element) -> str:
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode") + "\n"

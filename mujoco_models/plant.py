@@ -1,0 +1,12 @@
+"""A legged robot in MuJoCo."""
+
+from __future__ import annotations
+
+from exudyn_models.physics.legged import LeggedPlant
+from mujoco_models.tree import MujocoTree
+
+
+class Plant(LeggedPlant):
+    """One robot in its own MuJoCo model; see :class:`LeggedPlant`."""
+
+    engine = MujocoTree

@@ -1,0 +1,122 @@
+"""Engines by name, the closed loop in MuJoCo, and the replay of the same commands in both."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shlex
+import sys
+from pathlib import Path
+
+import pytest
+import typer
+
+from apnc import Experiment, simulate, summarise
+from apnc.cli.app import app
+from apnc.cli.main import main
+from apnc.cli.walk import experiment_of
+from apnc.loop.provenance import what_was_run
+
+needs_mujoco = pytest.mark.skipif(
+    "not __import__('importlib').util.find_spec('mujoco')", reason="mujoco is not installed"
+)
+
+
+def test_keys_of_exudyn_are_those_from_before_there_was_another_engine(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hashed: list[dict[str, object]] = []
+    sha256 = hashlib.sha256
+
+    def noted(data: bytes) -> object:
+        hashed.append(json.loads(data))
+        return sha256(data)
+
+    monkeypatch.setattr(hashlib, "sha256", noted)
+    assert Experiment().key() != Experiment(engine="mujoco").key()
+    assert "engine" not in hashed[0]
+    assert hashed[1]["engine"] == "mujoco"
+
+
+@pytest.mark.parametrize("contact", ["compiled", "mujoco"])
+def test_the_command_line_says_the_engine(contact: str) -> None:
+    experiment = Experiment(engine="mujoco", contact=contact)
+    words = shlex.split(experiment.command())[2:]
+    command = typer.main.get_command(app).commands["walk"]  # type: ignore[attr-defined]
+    assert experiment_of(command.make_context("walk", words).params) == experiment
+
+
+def test_an_unknown_engine_and_the_contact_of_another_are_refused() -> None:
+    with pytest.raises(ValueError, match="engine 'cow' is not one of exudyn, mujoco"):
+        Experiment(engine="cow")
+    with pytest.raises(ValueError, match="contact 'mujoco' is not one of compiled, exudyn"):
+        Experiment(contact="mujoco")
+
+
+def test_a_missing_package_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    for name in [name for name in sys.modules if name.split(".")[0].startswith("mujoco")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    for words in (
+        ["walk", "--engine", "mujoco", "--duration", "1", "--output", str(tmp_path / "walk")],
+        ["export-robot", "--format", "mjcf", "--output", str(tmp_path / "robot.xml")],
+    ):
+        with pytest.raises(SystemExit) as end:
+            main(words)
+        assert end.value.code == 2
+        assert "'mujoco' is not installed; pip install \"apnc[mujoco]\"" in capsys.readouterr().err
+
+
+@needs_mujoco
+@pytest.mark.parametrize(("form", "word"), [("mjcf", "<mujoco"), ("urdf", "<robot")])
+def test_a_robot_is_exported(
+    form: str, word: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "new" / "robot"
+    with pytest.raises(SystemExit) as end:
+        main(["export-robot", "--format", form, "--robot", "hexapod", "--output", str(path)])
+    assert end.value.code == 0
+    assert word in path.read_text()
+    assert f"{path}: hexapod, 6 legs" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--format", "sdf"], "format 'sdf' is not one of mjcf, urdf"),
+        (["--format", "urdf", "--servo", "dcmotor"], "servo 'dcmotor' is of MJCF"),
+        (["--robot", "cow"], "robot 'cow' is unknown"),
+    ],
+)
+def test_what_cannot_be_exported_is_said(
+    words: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["export-robot", *words])
+    assert end.value.code == 2
+    assert message in capsys.readouterr().err
+
+
+@needs_mujoco
+@pytest.mark.parametrize("contact", ["compiled", "mujoco"])
+def test_the_trot_forms_in_mujoco_as_in_exudyn(contact: str) -> None:
+    run = Experiment(mi=0.15, seed=1, duration=12.0)
+    theirs = summarise(simulate(run))
+    record = simulate(Experiment(engine="mujoco", contact=contact, mi=0.15, seed=1, duration=12.0))
+    ours = summarise(record)
+    assert ours.converged and theirs.converged
+    assert ours.gait == theirs.gait == "trot"
+    assert ours.stride_frequency_hz == pytest.approx(theirs.stride_frequency_hz, rel=0.1)
+    assert "mujoco" in what_was_run(record.experiment)["versions"]
+
+
+@needs_mujoco
+def test_with_the_same_commands_the_engines_meet_at_first_order_in_the_step() -> None:
+    from apnc.studies.engines.replay import distances, order_of  # noqa: PLC0415
+
+    steps = (64, 128, 256)
+    found = distances(steps)
+    assert found[0] < 1e-4  # of 80 mm that it walks
+    assert order_of(steps, found) == pytest.approx(1.0, abs=0.05)  # a thousandth of the force shows

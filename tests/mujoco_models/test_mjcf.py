@@ -1,0 +1,109 @@
+"""The robot as MJCF, as MuJoCo loads it, against the robot file and our own kinematics."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from odd_robot import odd_robot
+
+from exudyn_models.physics.forces import leg_points, rotation_rpy, servo_torque
+from exudyn_models.physics.robot_forces import leg_geometry
+from exudyn_models.robot import RobotDescription, load_robot
+from exudyn_models.robot.links import links_of
+
+mujoco: Any = pytest.importorskip("mujoco")
+
+from mujoco_models.tree import export_mjcf  # noqa: E402
+
+ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot()]
+LILIBOT = ROBOTS[0]
+
+
+@pytest.fixture(params=ROBOTS, ids=lambda robot: robot.name)
+def robot(request: pytest.FixtureRequest) -> RobotDescription:
+    return request.param
+
+
+def loaded(robot: RobotDescription, **options: str) -> Any:
+    return mujoco.MjModel.from_xml_string(export_mjcf(robot, **options))
+
+
+def test_bodies_have_our_masses_centres_and_inertias(robot: RobotDescription) -> None:
+    model = loaded(robot)
+    expected = {"trunk": robot.trunk.loaded(0.0, 0.0)} | {
+        f"{leg.name}_{link.name}": link.body for leg in robot.legs for link in links_of(leg)
+    }
+    assert model.nbody == 1 + len(expected)  # and the world
+    for name, body in expected.items():
+        at, turn = model.body(name).id, np.zeros(9)
+        mujoco.mju_quat2Mat(turn, model.body_iquat[at])
+        turn = turn.reshape(3, 3)
+        inertia = turn @ np.diag(model.body_inertia[at]) @ turn.T
+        assert model.body_mass[at] == pytest.approx(body.mass, abs=1e-12)
+        np.testing.assert_allclose(model.body_ipos[at], body.com, atol=1e-12)
+        np.testing.assert_allclose(inertia, body.inertia, atol=1e-12)
+    assert model.body_mass.sum() == pytest.approx(robot.mass, abs=1e-9)
+    np.testing.assert_array_equal(model.dof_armature[:6], 0.0)
+    np.testing.assert_array_equal(model.dof_armature[6:], robot.servo.reflected_inertia)
+
+
+def test_feet_are_where_ours_are_at_any_pose(robot: RobotDescription) -> None:
+    model = loaded(robot)
+    data, random = mujoco.MjData(model), np.random.default_rng(0)
+    for _ in range(5):
+        place, rpy = random.uniform(-1, 1, 3), random.uniform(-1, 1, 3)
+        angles = random.uniform(-1.5, 1.5, (len(robot.legs), 3))
+        rows = np.array(rotation_rpy(*rpy))
+        data.qpos[:3] = place
+        mujoco.mju_mat2Quat(data.qpos[3:7], rows.ravel())
+        data.qpos[7:] = angles.ravel()
+        mujoco.mj_kinematics(model, data)
+        for leg, geometry, own in zip(robot.legs, leg_geometry(robot), angles, strict=True):
+            foot = place + rows @ np.array(leg_points(geometry, *own)[2])
+            np.testing.assert_allclose(data.geom(f"{leg.name}_foot").xpos, foot, atol=1e-9)
+            np.testing.assert_allclose(data.site(f"{leg.name}_foot").xpos, foot, atol=1e-9)
+            assert model.geom(f"{leg.name}_foot").size[0] == robot.contact.foot_radius
+
+
+@pytest.mark.parametrize("servo", ["position", "dcmotor"])
+def test_a_servo_gives_our_torque(servo: str) -> None:
+    if servo == "dcmotor" and not hasattr(mujoco.mjtGain, "mjGAIN_DCMOTOR"):
+        pytest.skip("this MuJoCo has no dcmotor")
+    model = loaded(LILIBOT, servo=servo)
+    data, random, seen = mujoco.MjData(model), np.random.default_rng(0), set()
+    ours = LILIBOT.servo
+    numbers = np.array([ours.stiffness, ours.damping, ours.stall_torque, ours.no_load_speed])
+    for _ in range(50):
+        data.qpos[7:], data.qvel[6:] = random.uniform(-0.3, 0.3, (2, 12))
+        data.qvel[6:] *= 20.0
+        data.ctrl[:] = random.uniform(-0.3, 0.3, 12)
+        mujoco.mj_forward(model, data)
+        for k in range(12):
+            error, speed = data.ctrl[k] - data.qpos[7 + k], data.qvel[6 + k]
+            free = numbers[0] * error - numbers[1] * speed
+            expected = servo_torque(numbers, error, speed)
+            if servo == "position":  # knows the stall torque, not the line
+                expected = np.clip(free, -ours.stall_torque, ours.stall_torque)
+            assert data.actuator_force[k] == pytest.approx(expected, abs=1e-9)
+            seen.add("free" if expected == free else "limited")
+    assert seen == {"free", "limited"}
+
+
+def test_it_stands_on_its_feet_and_its_sensors_show_its_weight(robot: RobotDescription) -> None:
+    model = loaded(robot)
+    data = mujoco.MjData(model)
+    for _ in range(4000):
+        mujoco.mj_step(model, data)
+    loads = [data.sensor(f"{leg.name}_grf").data[0] for leg in robot.legs]
+    assert sum(loads) == pytest.approx(robot.weight, rel=1e-3)
+    for leg, load in zip(robot.legs, loads, strict=True):
+        depth = robot.contact.foot_radius - data.geom(f"{leg.name}_foot").xpos[2]
+        sunk = max(0.0, depth)  # not every leg of the odd robot reaches the ground
+        assert sunk == pytest.approx(load / robot.contact.stiffness, rel=0.01, abs=1e-7)
+
+
+def test_an_unknown_servo_is_named() -> None:
+    with pytest.raises(ValueError, match="servo 'cow' is not one of position, dcmotor"):
+        export_mjcf(LILIBOT, servo="cow")
