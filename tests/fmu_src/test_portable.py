@@ -103,7 +103,8 @@ def test_exports_of_fmi_3_are_exactly_the_functions_of_the_standard(
 @pytest.mark.parametrize("platform", LINUX)
 def test_linux_needs_nothing_newer_than_glibc_2_17(unpacked: Path, platform: str) -> None:
     library = lief.parse(str(library_path(unpacked, platform)))
-    assert sorted(library.libraries) == ["libc.so.6", "libm.so.6"]
+    # floor comes from libm where the processor has no instruction for it
+    assert {"libc.so.6"} <= set(library.libraries) <= {"libc.so.6", "libm.so.6"}
     needed = {
         a.name for r in library.symbols_version_requirement for a in r.get_auxiliary_symbols()
     }
