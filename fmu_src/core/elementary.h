@@ -101,11 +101,13 @@ static inline double apnc_cos_unit(double x) {
 /* Sine and cosine of an angle of some turns [rad]; pi / 2 in three parts, so that their zeros are
  * where they should be. */
 static inline void apnc_sin_cos(double x, double *sine, double *cosine) {
-    const double n = (x * 0.6366197723675814 + APNC_TO_WHOLE) - APNC_TO_WHOLE;
+    const double shifted = x * 0.6366197723675814 + APNC_TO_WHOLE;
+    const double n = shifted - APNC_TO_WHOLE;
     const double u =
         ((x - n * 1.5707963267341256) - n * 6.077100506303966e-11) - n * 2.0222662487959506e-21;
     const double s = apnc_sin_unit(u), c = apnc_cos_unit(u);
-    const int quarter = (int)n & 3;
+    uint64_t quarter; /* its last two bits, those of n */
+    memcpy(&quarter, &shifted, sizeof quarter);
     *sine = quarter & 1 ? c : s;
     *cosine = quarter & 1 ? s : c;
     if (quarter & 2) *sine = -*sine;
