@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from apnc_core.elementary import cos, sin
+from apnc_core.elementary import cos_unit, sin_cos, sin_unit, total
 from apnc_core.interface import Array
 
 
@@ -28,12 +28,8 @@ def couple(o: Array, phi: Array, xi: float) -> Array:
     oscillators; measured ones are never exact.
     """
     from_leg_1 = np.concatenate([[0.0], phi])
-    sin_phi, cos_phi = sin(from_leg_1), cos(from_leg_1)
-    sin_x = sin(o) * cos_phi + cos(o) * sin_phi
-    cos_x = cos(o) * cos_phi - sin(o) * sin_phi
-    return xi * (sin_x * _sum(cos_x) - cos_x * _sum(sin_x))
-
-
-def _sum(x: Array) -> float:
-    """Sum from the first entry to the last, as C adds; numpy's own sum pairs the entries."""
-    return float(np.cumsum(x)[-1])
+    sin_phi, cos_phi = sin_cos(from_leg_1)
+    sin_o, cos_o = sin_unit(o), cos_unit(o)
+    sin_x = sin_o * cos_phi + cos_o * sin_phi
+    cos_x = cos_o * cos_phi - sin_o * sin_phi
+    return xi * (sin_x * total(cos_x) - cos_x * total(sin_x))

@@ -38,7 +38,7 @@ class VectorMeasure:
         im = o2[0] * o1[1:] - o1[0] * o2[1:]
         self.re = self.re + p.phase_filter * (re - self.re)
         self.im = self.im + p.phase_filter * (im - self.im)
-        return np.array([angle_of(y, x) for y, x in zip(self.im, self.re, strict=True)])
+        return angle_of(self.im, self.re)
 
 
 @dataclass

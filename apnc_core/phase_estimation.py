@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from apnc_core.elementary import wrap
+from apnc_core.elementary import total, wrap
 from apnc_core.enumerations import KappaRule
 from apnc_core.interface import Array, Parameters
 
@@ -38,7 +38,7 @@ class Stability:
         self.angle_before = angle
         deviation = self.unwrapped - self.window.mean(axis=0)
         self.window = np.vstack([self.window[1:], self.unwrapped])
-        return math.sqrt(float(deviation @ deviation))
+        return math.sqrt(total(deviation * deviation))
 
 
 @dataclass

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from apnc_core.elementary import cos, sin
+from apnc_core.elementary import cos_unit, sin_unit
 from apnc_core.interface import Array
 
 
@@ -16,4 +16,4 @@ def feedback(gamma: Array, F: Array, o1: Array, o2: Array) -> tuple[Array, Array
 
     f1 = gamma F cos(o1), f2 = gamma F sin(o2) (Eq. 5).
     """
-    return gamma * F * cos(o1), gamma * F * sin(o2)
+    return gamma * F * cos_unit(o1), gamma * F * sin_unit(o2)

@@ -1,9 +1,8 @@
-/* Loops that the bench times: the core, the arithmetic floor and any FMU's fmi2DoStep.
+/* Loops that the bench times: the core and any FMU's fmi2DoStep.
  *
  * Compiled with the controller's sources for one number of legs. Every loop returns something
  * that depends on all its results, so that none of it can be left out.
  */
-#include <math.h>
 #include <string.h>
 
 #include "apnc.h"
@@ -34,20 +33,6 @@ EXPORT double bench_core(int ticks) {
     for (int n = 0; n < ticks; n++) {
         apnc_tick(&data.parameters, &state, &data.inputs, &data.outputs);
         sum += data.outputs.theta_hip[0];
-    }
-    return sum;
-}
-
-/* As many tanh, sin and cos as one tick takes, on numbers of the size that a tick has. */
-EXPORT double bench_floor(int ticks, int coupled) {
-    double sum = 0.0, x = 0.3;
-    const int pairs = coupled ? 2 : 1;
-    for (int n = 0; n < ticks; n++) {
-        for (int leg = 0; leg < APNC_LEGS; leg++) {
-            x = x < 0.9 ? x + 0.013 : -0.9;
-            sum += tanh(1.6 * x) + tanh(1.5 * x + 0.1);
-            for (int i = 0; i < pairs; i++) sum += sin(x + i) + cos(x - i);
-        }
     }
     return sum;
 }

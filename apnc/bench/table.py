@@ -33,9 +33,9 @@ def _rows(result: dict[str, Any]) -> list[tuple[str, float, str, float, str]]:
         (
             f"core, {c['legs']} legs",
             c["core_ns"],
-            f"its tanh, sin, cos: {_ns(c['floor_ns'])}",
+            f"with libm: {_ns(c['libm_ns'])}",
             c["ratio"],
-            f"<= {targets['core_over_floor_4_legs']}" if c["legs"] == 4 else "",
+            f"<= {target}" if (target := targets.get(f"core_over_libm_{c['legs']}_legs")) else "",
         )
         for c in result["core"]
     ]

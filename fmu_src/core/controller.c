@@ -41,7 +41,8 @@ void apnc_reset(const apnc_parameters *p, apnc_state *state) {
         c->o1[leg] = p->o1_start;
         c->o2[leg] = p->o2_start;
         c->theta_hip_before[leg] = (apnc_real)INFINITY;
-        c->F_before[leg] = (apnc_real)INFINITY; /* a robot that already stands does not touch down */
+        c->F_before[leg] =
+            (apnc_real)INFINITY; /* a robot that already stands does not touch down */
     }
     apnc_acquisition_start(&state->acquisition);
     apnc_estimation_start(&state->estimation);
@@ -64,7 +65,8 @@ static int couplings_on(const apnc_parameters *p, const apnc_state *state) {
 }
 
 /* Outputs that follow from the circuits' state alone. */
-static void observe(const apnc_parameters *p, const apnc_state *state, apnc_outputs *out) {
+static void observe(const apnc_parameters *restrict p, const apnc_state *restrict state,
+                    apnc_outputs *restrict out) {
     const apnc_circuits *c = &state->circuits;
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         const apnc_real scale = apnc_amplitude_scale(p, state->turn, leg);
@@ -95,17 +97,9 @@ void apnc_init(const apnc_parameters *p, apnc_state *state, apnc_outputs *out) {
     observe_rest(p, state, out);
 }
 
-static apnc_real feedback_gain(const apnc_parameters *p, apnc_real K_f, apnc_real K_s,
-                               apnc_real kappa) {
-    if (p->method == APNC_METHOD_TEGOTAE) return apnc_tegotae_gain(p);
-    if (p->method == APNC_METHOD_PHASE_RESET) return 0;
-    const apnc_real gamma = apnc_gain(K_f, K_s);
-    return kappa > 0 ? p->feedback_kept * gamma : gamma;
-}
-
 /* Phases, their stability and kappa at n; the angles [rad] are returned for live coupling. */
-static void communicate(const apnc_parameters *p, apnc_state *state, apnc_real *angle,
-                        apnc_outputs *out) {
+static void communicate(const apnc_parameters *restrict p, apnc_state *restrict state,
+                        apnc_real *restrict angle, apnc_outputs *restrict out) {
     const apnc_circuits *c = &state->circuits;
     apnc_memory *memory = &state->memory;
     if (p->phase_measure == APNC_PHASE_MEASURE_PEAK)
@@ -129,71 +123,99 @@ typedef struct {
     apnc_real sin_o1[APNC_LEGS], cos_o1[APNC_LEGS], sin_o2[APNC_LEGS], cos_o2[APNC_LEGS];
 } trigonometry;
 
-static void evaluate(const apnc_circuits *c, int coupled, trigonometry *t) {
+static void evaluate(const apnc_circuits *restrict c, int coupled, trigonometry *restrict t) {
+#ifdef APNC_LIBM /* sine and cosine of one number side by side are computed at once */
+    for (int leg = 0; coupled && leg < APNC_LEGS; leg++) {
+        t->sin_o1[leg] = apnc_sin_unit(c->o1[leg]);
+        t->cos_o1[leg] = apnc_cos_unit(c->o1[leg]);
+        t->sin_o2[leg] = apnc_sin_unit(c->o2[leg]);
+        t->cos_o2[leg] = apnc_cos_unit(c->o2[leg]);
+    }
+    if (coupled) return;
+#endif
     for (int leg = 0; leg < APNC_LEGS; leg++) {
-        const apnc_real o1 = c->o1[leg], o2 = c->o2[leg];
-        if (coupled) { /* side by side, so that the compiler takes sine and cosine at once */
-            t->sin_o1[leg] = apnc_sin(o1);
-            t->cos_o1[leg] = apnc_cos(o1);
-            t->sin_o2[leg] = apnc_sin(o2);
-            t->cos_o2[leg] = apnc_cos(o2);
-        } else {
-            t->cos_o1[leg] = apnc_cos(o1);
-            t->sin_o2[leg] = apnc_sin(o2);
-        }
+        t->cos_o1[leg] = apnc_cos_unit(c->o1[leg]);
+        t->sin_o2[leg] = apnc_sin_unit(c->o2[leg]);
+    }
+    if (!coupled) return;
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        t->sin_o1[leg] = apnc_sin_unit(c->o1[leg]);
+        t->cos_o2[leg] = apnc_cos_unit(c->o2[leg]);
     }
 }
 
-static void feed_back(const apnc_parameters *p, const apnc_circuits *c, const apnc_real *F,
-                      const trigonometry *t, apnc_outputs *out) {
-    for (int leg = 0; leg < APNC_LEGS; leg++) {
-        out->gamma[leg] = feedback_gain(p, c->K_f[leg], c->K_s[leg], out->kappa);
+static void feed_back(const apnc_parameters *restrict p, const apnc_circuits *restrict c,
+                      const apnc_real *restrict F, const trigonometry *restrict t,
+                      apnc_outputs *restrict out) {
+    const int learns = p->method == APNC_METHOD_APNC || p->method == APNC_METHOD_APC;
+    const apnc_real kept = out->kappa > 0 ? p->feedback_kept : 1;
+    const apnc_real fixed = p->method == APNC_METHOD_TEGOTAE ? apnc_tegotae_gain(p) : 0;
+    for (int leg = 0; leg < APNC_LEGS; leg++) out->gamma[leg] = fixed;
+    for (int leg = 0; learns && leg < APNC_LEGS; leg++)
+        out->gamma[leg] = kept * apnc_gain(c->K_f[leg], c->K_s[leg]);
+    for (int leg = 0; leg < APNC_LEGS; leg++)
         apnc_feedback(out->gamma[leg], F[leg], t->cos_o1[leg], t->sin_o2[leg], &out->f1[leg],
                       &out->f2[leg]);
-        out->g1[leg] = out->g2[leg] = 0;
-    }
+    memset(out->g1, 0, sizeof out->g1);
+    memset(out->g2, 0, sizeof out->g2);
 }
 
 static void couple(const apnc_parameters *p, const apnc_memory *memory, const apnc_real *angle,
                    const trigonometry *t, apnc_outputs *out) {
-    const apnc_real *sin_phi = memory->sin_phi, *cos_phi = memory->cos_phi;
     const apnc_real gain = p->coupling_sign == APNC_COUPLING_SIGN_PRINTED ? p->xi : -p->xi;
-    apnc_real sin_now[APNC_LEGS], cos_now[APNC_LEGS];
-    if (!p->phi_frozen) {
-        apnc_relation(angle, sin_now, cos_now);
-        sin_phi = sin_now;
-        cos_phi = cos_now;
-    }
+    apnc_real sin_phi[APNC_LEGS], cos_phi[APNC_LEGS];
+    memcpy(sin_phi, memory->sin_phi, sizeof sin_phi);
+    memcpy(cos_phi, memory->cos_phi, sizeof cos_phi);
+    if (!p->phi_frozen) apnc_relation(angle, sin_phi, cos_phi);
     apnc_couple(gain, t->sin_o1, t->cos_o1, sin_phi, cos_phi, out->g1);
     apnc_couple(gain, t->sin_o2, t->cos_o2, sin_phi, cos_phi, out->g2);
 }
 
-/* State at n + 1. F: loads over half the weight at n. */
-static void advance(const apnc_parameters *p, apnc_state *state, const apnc_real *F,
-                    const apnc_outputs *out) {
-    apnc_circuits *c = &state->circuits;
-    const int learns = p->method == APNC_METHOD_APNC || p->method == APNC_METHOD_APC;
+static void learn(const apnc_parameters *restrict p, apnc_circuits *restrict c,
+                  const apnc_real *restrict F) {
     for (int leg = 0; leg < APNC_LEGS; leg++) {
-        apnc_real a1, a2;
-        apnc_activation(p, state->MI, c->o1[leg], c->o2[leg], &a1, &a2);
-        a1 = a1 - out->f1[leg] + out->g1[leg];
-        a2 = a2 - out->f2[leg] + out->g2[leg];
-        if (p->method == APNC_METHOD_PHASE_RESET &&
-            apnc_touched_down(p, F[leg], c->F_before[leg])) {
-            a1 = APNC_A1_AT_TOUCH_DOWN;
-            a2 = APNC_A2_AT_TOUCH_DOWN;
-        }
-        if (learns) {
-            const apnc_real e = apnc_error(F[leg], c->grf_expected[leg]);
-            c->K_f[leg] = apnc_learn(p->A_f, c->K_f[leg], p->B_f, e);
-            c->K_s[leg] = apnc_learn(p->A_s, c->K_s[leg], p->B_s, e);
-        }
-        const apnc_real G = apnc_stance_expected(out->theta_hip[leg], c->theta_hip_before[leg]);
+        const apnc_real e = apnc_error(F[leg], c->grf_expected[leg]);
+        c->K_f[leg] = apnc_learn(p->A_f, c->K_f[leg], p->B_f, e);
+        c->K_s[leg] = apnc_learn(p->A_s, c->K_s[leg], p->B_s, e);
+    }
+}
+
+static void expect(const apnc_parameters *restrict p, apnc_circuits *restrict c,
+                   const apnc_real *restrict theta_hip) {
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        const apnc_real G = apnc_stance_expected(theta_hip[leg], c->theta_hip_before[leg]);
         c->grf_expected[leg] = apnc_expect(p, c->grf_expected[leg], G);
-        c->theta_hip_before[leg] = out->theta_hip[leg];
-        c->F_before[leg] = F[leg];
-        c->o1[leg] = apnc_output(a1);
-        c->o2[leg] = apnc_output(a2);
+        c->theta_hip_before[leg] = theta_hip[leg];
+    }
+}
+
+static void restart_at_touch_down(const apnc_parameters *p, const apnc_circuits *c,
+                                  const apnc_real *F, apnc_real *a1, apnc_real *a2) {
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        if (!apnc_touched_down(p, F[leg], c->F_before[leg])) continue;
+        a1[leg] = APNC_A1_AT_TOUCH_DOWN;
+        a2[leg] = APNC_A2_AT_TOUCH_DOWN;
+    }
+}
+
+/* State at n + 1. F: loads over half the weight at n. One loop per block, so that the compiler
+ * takes several legs at once. */
+static void advance(const apnc_parameters *restrict p, apnc_state *restrict state,
+                    const apnc_real *restrict F, const apnc_outputs *restrict out) {
+    apnc_circuits *c = &state->circuits;
+    apnc_real a1[APNC_LEGS], a2[APNC_LEGS];
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        apnc_activation(p, state->MI, c->o1[leg], c->o2[leg], &a1[leg], &a2[leg]);
+        a1[leg] = a1[leg] - out->f1[leg] + out->g1[leg];
+        a2[leg] = a2[leg] - out->f2[leg] + out->g2[leg];
+    }
+    if (p->method == APNC_METHOD_PHASE_RESET) restart_at_touch_down(p, c, F, a1, a2);
+    if (p->method == APNC_METHOD_APNC || p->method == APNC_METHOD_APC) learn(p, c, F);
+    expect(p, c, out->theta_hip);
+    memcpy(c->F_before, F, sizeof c->F_before);
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        c->o1[leg] = apnc_output(a1[leg]);
+        c->o2[leg] = apnc_output(a2[leg]);
     }
 }
 

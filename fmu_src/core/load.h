@@ -14,7 +14,7 @@ static inline apnc_real apnc_load_scale(apnc_real robot_weight) { return 2 / rob
  * most [N]. */
 static inline apnc_real apnc_load(apnc_real grf, apnc_real scale, apnc_real F_max, apnc_real most,
                                   int32_t *fault) {
-    *fault = !(grf >= 0 && grf <= most);
+    *fault = !((grf >= 0) & (grf <= most));
     const apnc_real F = *fault ? 0 : grf * scale;
     return F < F_max ? F : F_max;
 }

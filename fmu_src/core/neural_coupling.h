@@ -13,23 +13,20 @@
 static inline void apnc_relation(const apnc_real *phi, apnc_real *sin_phi, apnc_real *cos_phi) {
     sin_phi[0] = 0;
     cos_phi[0] = 1;
-    for (int leg = 1; leg < APNC_LEGS; leg++) {
-        sin_phi[leg] = apnc_sin(phi[leg - 1]);
-        cos_phi[leg] = apnc_cos(phi[leg - 1]);
-    }
+    for (int leg = 1; leg < APNC_LEGS; leg++)
+        apnc_sin_cos(phi[leg - 1], &sin_phi[leg], &cos_phi[leg]);
 }
 
 /* g of one neuron of every leg times gain, from the sines and cosines of its outputs o. */
-static inline void apnc_couple(apnc_real gain, const apnc_real *sin_o, const apnc_real *cos_o,
-                               const apnc_real *sin_phi, const apnc_real *cos_phi, apnc_real *g) {
+static inline void apnc_couple(apnc_real gain, const apnc_real *restrict sin_o,
+                               const apnc_real *restrict cos_o, const apnc_real *restrict sin_phi,
+                               const apnc_real *restrict cos_phi, apnc_real *restrict g) {
     apnc_real sin_x[APNC_LEGS], cos_x[APNC_LEGS];
-    apnc_real sum_sin = 0, sum_cos = 0;
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         sin_x[leg] = sin_o[leg] * cos_phi[leg] + cos_o[leg] * sin_phi[leg];
         cos_x[leg] = cos_o[leg] * cos_phi[leg] - sin_o[leg] * sin_phi[leg];
-        sum_sin += sin_x[leg];
-        sum_cos += cos_x[leg];
     }
+    const apnc_real sum_sin = apnc_sum(sin_x, APNC_LEGS), sum_cos = apnc_sum(cos_x, APNC_LEGS);
     for (int leg = 0; leg < APNC_LEGS; leg++)
         g[leg] = gain * (sin_x[leg] * sum_cos - cos_x[leg] * sum_sin);
 }

@@ -19,11 +19,13 @@ static inline void apnc_acquisition_start(apnc_acquisition *s) {
 }
 
 /* Low-passed angle between the vectors (o1, o2) of leg 1 and of leg k. */
-static inline void apnc_acquire_vector(apnc_acquisition *s, apnc_real phase_filter,
-                                       const apnc_real *o1, const apnc_real *o2, apnc_real *angle) {
+static inline void apnc_acquire_vector(apnc_acquisition *restrict s, apnc_real phase_filter,
+                                       const apnc_real *restrict o1, const apnc_real *restrict o2,
+                                       apnc_real *restrict angle) {
+    const apnc_real first1 = o1[0], first2 = o2[0];
     for (int r = 0; r < APNC_RELATIONS; r++) {
-        const apnc_real re = o1[0] * o1[r + 1] + o2[0] * o2[r + 1];
-        const apnc_real im = o2[0] * o1[r + 1] - o1[0] * o2[r + 1];
+        const apnc_real re = first1 * o1[r + 1] + first2 * o2[r + 1];
+        const apnc_real im = first2 * o1[r + 1] - first1 * o2[r + 1];
         s->re[r] += phase_filter * (re - s->re[r]);
         s->im[r] += phase_filter * (im - s->im[r]);
         angle[r] = apnc_angle(s->im[r], s->re[r]);

@@ -10,25 +10,26 @@
 static inline void apnc_estimation_start(apnc_estimation *s) { memset(s, 0, sizeof *s); }
 
 /* d(n) = |Phi(n) - mean(Phi(n-1) ... Phi(n-N))| (Eq. 13-15). */
-static inline apnc_real apnc_distance(apnc_estimation *s, int N, const apnc_real *angle) {
+static inline apnc_real apnc_distance(apnc_estimation *restrict s, int N,
+                                      const apnc_real *restrict angle) {
     const apnc_real share = (apnc_real)1 / N;
-    apnc_real squares = 0;
+    apnc_real square[APNC_RELATIONS];
     apnc_real *row = s->window[s->oldest];
     for (int r = 0; r < APNC_RELATIONS; r++) {
-        s->unwrapped[r] += apnc_wrap(angle[r] - s->angle_before[r], -APNC_PI);
-        s->angle_before[r] = angle[r];
-        const apnc_real deviation = s->unwrapped[r] - s->sum[r] * share;
-        squares += deviation * deviation;
-        s->sum[r] += s->unwrapped[r] - row[r];
-        row[r] = s->unwrapped[r];
+        const apnc_real now = s->unwrapped[r] + apnc_wrap(angle[r] - s->angle_before[r], -APNC_PI);
+        const apnc_real deviation = now - s->sum[r] * share;
+        square[r] = deviation * deviation;
+        s->sum[r] += now - row[r];
+        s->unwrapped[r] = row[r] = now;
     }
+    memcpy(s->angle_before, angle, sizeof s->angle_before);
     s->oldest = s->oldest + 1 < N ? s->oldest + 1 : 0;
     if (s->oldest == 0) { /* summed anew once per round, so that rounding does not pile up */
         for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] = 0;
         for (int i = 0; i < N; i++)
             for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] += s->window[i][r];
     }
-    return apnc_sqrt(squares);
+    return apnc_sqrt(apnc_sum(square, APNC_RELATIONS));
 }
 
 /* Whether kappa may switch on at this tick (Eq. 16, or armed first and held). */

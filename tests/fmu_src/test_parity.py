@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import Phase, given, settings
-from parity import Run, compare, drawn_runs, random_inputs, uniform_run
+from parity import Comparison, Run, compare, drawn_runs, random_inputs, uniform_run
 
 from apnc_core.controller import Controller
 from apnc_core.enumerations import Method, PhaseMeasure
@@ -37,10 +37,16 @@ def paths(fmu4: Path, fmu6: Path) -> dict[int, Path]:
     return {4: fmu4, 6: fmu6}
 
 
+def equal(result: Comparison) -> bool:
+    """Bit for bit, but for d: the FMU keeps the sum of Eq. 14 that the reference takes anew."""
+    differing = {name for name, off in result.difference.items() if off != 0.0}
+    return differing <= {"d"} and result.worst <= TOLERANCE
+
+
 def check(paths: dict[int, Path], run: Run) -> None:
     n_legs, changes, seed = run
     result = compare(paths[n_legs], changes, n_legs, TICKS, seed)
-    assert result.worst <= TOLERANCE, (run, result.difference)
+    assert equal(result), (run, result.difference)
 
 
 def test_fmu_equals_reference_for_any_parameters(paths: dict[int, Path]) -> None:
@@ -94,7 +100,7 @@ def test_a_parameter_that_one_side_ignores_would_be_noticed(
 @pytest.mark.parametrize("n_legs", [4, 6])
 def test_fmu_equals_reference_over_minutes(n_legs: int, paths: dict[int, Path]) -> None:
     result = compare(paths[n_legs], COUPLED, n_legs, ticks=10_000)
-    assert result.worst <= TOLERANCE, result.difference
+    assert equal(result), result.difference
 
 
 def test_comparison_exercises_every_output(fmu4: Path) -> None:
@@ -111,12 +117,12 @@ MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
     "sensory feedback": ("sensory_feedback.h", "F * sin_o2", "F * cos_o1", {}),
     "dual-rate learner": ("dual_rate_learner.h", "A * K + B * e", "A * K + B", {}),
     "forward model": ("forward_model.h", "theta_hip <= theta", "theta_hip > theta", {}),
-    "phase acquisition": ("phase_acquisition.h", "o1[0] * o2[r + 1];\n        s", "0.0;\n s", {}),
+    "phase acquisition": ("phase_acquisition.h", "first1 * o2[r + 1];\n        s", "0.0;\n s", {}),
     "peak measure": ("phase_acquisition.h", "/ s->period", "/ (s->period + 1.0)", PEAKS),
     "phase estimation": ("phase_estimation.h", "1 / N", "1 / (N + 1)", {}),
     "switch": ("phase_estimation.h", "s->calm >= p", "s->calm > p", COUPLED),
     "neural coupling": ("neural_coupling.h", "gain * (", "1.0001 * gain * (", COUPLED),
-    "yielding feedback": ("controller.c", "kept * gamma", "kept * 1.001 * gamma", COUPLED),
+    "yielding feedback": ("controller.c", "kept * apnc_gain", "kept * 1.001 * apnc_gain", COUPLED),
     "tegotae": (
         "tegotae.h",
         "p->gamma_tegotae",

@@ -112,7 +112,8 @@ def test_exports_of_fmi_3_are_exactly_the_functions_of_the_standard(
 @pytest.mark.parametrize("platform", LINUX)
 def test_linux_needs_nothing_newer_than_glibc_2_17(unpacked: Path, platform: str) -> None:
     library = lief.parse(str(library_path(unpacked, platform)))
-    assert sorted(library.libraries) == ["libc.so.6", "libm.so.6"]
+    # floor comes from libm where the processor has no instruction for it
+    assert {"libc.so.6"} <= set(library.libraries) <= {"libc.so.6", "libm.so.6"}
     needed = {
         a.name for r in library.symbols_version_requirement for a in r.get_auxiliary_symbols()
     }
@@ -210,25 +211,25 @@ def moved(outputs: np.ndarray) -> set[str]:
 
 @pytest.mark.parametrize("platform", ["aarch64-linux", "win64"])
 @pytest.mark.parametrize("method", Method)
-def test_other_platforms_give_the_outputs_of_linux64(
+def test_other_platforms_give_the_bits_of_linux64(
     unpacked: Path, scratch: Path, platform: str, method: Method
 ) -> None:
-    """Equal but for the last bits of tanh, sin and cos, which each system's library rounds."""
     settings = {"method": method.value}
-    here = drive("linux64", unpacked, scratch, MINUTE, settings).view(float)
-    there = drive(platform, unpacked, scratch, MINUTE, settings).view(float)
-    np.testing.assert_allclose(there, here, rtol=0, atol=1e-12)
-    assert {"theta_hip", "theta_knee", "phi", "d"} <= moved(here)
+    here = drive("linux64", unpacked, scratch, MINUTE, settings)
+    np.testing.assert_array_equal(drive(platform, unpacked, scratch, MINUTE, settings), here)
+    assert {"theta_hip", "theta_knee", "phi", "d"} <= moved(here.view(float))
 
 
 @pytest.mark.parametrize("platform", ["aarch64-linux", "win64"])
-def test_other_platforms_give_the_outputs_of_linux64_with_couplings_on(
-    unpacked: Path, scratch: Path, platform: str
+@pytest.mark.parametrize("MI", [0.08, 0.15, 0.24])
+def test_other_platforms_give_the_bits_of_linux64_with_couplings_on(
+    unpacked: Path, scratch: Path, platform: str, MI: float
 ) -> None:
-    here = drive("linux64", unpacked, scratch, MINUTE, ALWAYS_COUPLED).view(float)
-    there = drive(platform, unpacked, scratch, MINUTE, ALWAYS_COUPLED).view(float)
-    np.testing.assert_allclose(there, here, rtol=0, atol=1e-12)
-    assert {"theta_hip", "g1", "g2"} <= moved(here)
+    """At MI 0.15 a difference in the last bit would double every five seconds."""
+    here = drive("linux64", unpacked, scratch, MINUTE, ALWAYS_COUPLED, MI)
+    there = drive(platform, unpacked, scratch, MINUTE, ALWAYS_COUPLED, MI)
+    np.testing.assert_array_equal(there, here)
+    assert {"theta_hip", "g1", "g2"} <= moved(here.view(float))
 
 
 @pytest.mark.parametrize("platform", ["linux64", "aarch64-linux", "win64"])
@@ -283,7 +284,7 @@ def test_fmpy_rebuilds_it_from_its_sources(tmp_path: Path) -> None:
     shipped = fmpy.simulate_fmu(str(host_fmu()), stop_time=2.0)
     assert built.dtype == shipped.dtype and len(built) == len(shipped) == 121
     for name in built.dtype.names:
-        np.testing.assert_allclose(built[name], shipped[name], rtol=0, atol=1e-12)
+        np.testing.assert_array_equal(built[name], shipped[name])
 
 
 def test_the_command_builds_all_platforms_unless_told_otherwise(

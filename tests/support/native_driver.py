@@ -24,6 +24,7 @@ ARM_LIBRARIES = Path("/usr/aarch64-linux-gnu")
 WINE = ("wine64", "/usr/lib/wine/wine64", "wine")
 
 LOADS = [s.value_reference for s in scalars() if s.variable.name == "grf"]
+MODULATORY_INPUT = next(s.value_reference for s in scalars() if s.variable.name == "MI")
 OUTPUTS = [
     s
     for s in scalars()
@@ -83,12 +84,16 @@ def compile_native(source: str, folder: str, scratch: Path, *flags: str) -> Path
 
 
 def drive(
-    folder: str, fmu: Path, scratch: Path, ticks: int, settings: dict[str, int]
+    folder: str, fmu: Path, scratch: Path, ticks: int, settings: dict[str, int], MI: float = 0.08
 ) -> np.ndarray:
-    """Bits of all Real outputs, shape (ticks, outputs), as the library of a platform gives them."""
+    """Bits of all Real outputs, shape (ticks, outputs), as the library of a platform gives them.
+
+    MI is given in thousandths.
+    """
     guid = fmpy.read_model_description(str(fmu), validate=False).guid
     pairs = [x for name, value in settings.items() for x in (INTEGERS[name], value)]
-    numbers = [ticks, len(LOADS), *LOADS, len(settings), *pairs]
+    numbers = [ticks, round(1000 * MI), len(LOADS), *LOADS, MODULATORY_INPUT]
+    numbers += [len(settings), *pairs]
     numbers += [s.value_reference for s in OUTPUTS]
     library = fmu / "binaries" / folder / (MODEL + PLATFORMS[folder].suffix)
     return _run("driver.c", folder, scratch, library, guid, numbers)

@@ -1,9 +1,9 @@
 /* Loads an FMI 2.0 library as an importer does, steps it over loads that are the same everywhere
  * and prints the bits of every output after every tick.
  *
- * driver LIBRARY GUID TICKS N INPUT*N M (REFERENCE VALUE)*M OUTPUT...
- * with N inputs for loads, M integers set in initialization mode, and the outputs to print, all by
- * value reference.
+ * driver LIBRARY GUID TICKS MI N INPUT*N M (REFERENCE VALUE)*M OUTPUT...
+ * with MI in thousandths, N inputs for loads and MI as the one after them, M integers set in
+ * initialization mode, and the outputs to print, all by value reference.
  */
 #include "fmi2FunctionTypes.h"
 #include "importer.h"
@@ -27,11 +27,12 @@ int main(int argc, char **argv) {
     fmi2Real loads[MOST], values[MOST];
     uint64_t seed = 1;
     size_t n_out = 0;
-    if (argc < 7) return 2;
+    if (argc < 8) return 2;
     next = argv + 3;
     const long ticks = (long)number();
+    const fmi2Real MI = (double)number() / 1000.0;
     const size_t n_in = count();
-    for (size_t i = 0; i < n_in; i++) in[i] = (fmi2ValueReference)number();
+    for (size_t i = 0; i <= n_in; i++) in[i] = (fmi2ValueReference)number();
     const size_t n_integer = count();
     for (size_t i = 0; i < n_integer; i++) {
         integer[i] = (fmi2ValueReference)number();
@@ -62,7 +63,8 @@ int main(int argc, char **argv) {
     check(fmi2ExitInitializationMode(c), "fmi2ExitInitializationMode");
     for (long tick = 0; tick < ticks; tick++) {
         for (size_t i = 0; i < n_in; i++) loads[i] = load(&seed, tick, (int)i);
-        check(fmi2SetReal(c, in, n_in, loads), "fmi2SetReal");
+        loads[n_in] = MI;
+        check(fmi2SetReal(c, in, n_in + 1, loads), "fmi2SetReal");
         check(fmi2DoStep(c, (double)tick * TS, TS, fmi2True), "fmi2DoStep");
         check(fmi2GetReal(c, out, n_out, values), "fmi2GetReal");
         show(values, n_out);
