@@ -12,11 +12,19 @@
 #ifndef APNC_ANGLE_H
 #define APNC_ANGLE_H
 
-/* The type of all numbers and the elementary functions of it. */
+/* Elementary functions by polynomials: the same bits on every platform, and without branches, so
+ * that a compiler takes several legs at once.
+ *
+ * apnc_core/elementary.py has the same operations in the same order, and says how far they are off.
+ * Coefficients are minimax fits in z = x^2, made for this file. No multiplication may be fused with
+ * an addition (-ffp-contract=off). In single precision, and for comparison with APNC_LIBM, the
+ * functions are those of the C library.
+ */
 #ifndef APNC_ELEMENTARY_H
 #define APNC_ELEMENTARY_H
 
 #include <math.h>
+#include <string.h>
 
 /* Variables of the controller: structs, one field per row of the table.
  *
@@ -216,25 +224,135 @@ static const apnc_row apnc_rows[APNC_ROWS];
 
 #endif
 
-#ifdef APNC_SINGLE
-#define apnc_tanh(x)  tanhf(x)
-#define apnc_sin(x)   sinf(x)
-#define apnc_cos(x)   cosf(x)
-#define apnc_atan(x)  atanf(x)
-#define apnc_sqrt(x)  sqrtf(x)
-#define apnc_floor(x) floorf(x)
+#if defined(APNC_SINGLE)
+#define apnc_tanh(x)        tanhf(x)
+#define apnc_sin_unit(x)    sinf(x)
+#define apnc_cos_unit(x)    cosf(x)
+#define apnc_atan(x)        atanf(x)
+#define apnc_sqrt(x)        sqrtf(x)
+#define apnc_floor(x)       floorf(x)
+#define apnc_abs(x)         fabsf(x)
+#define apnc_copysign(x, y) copysignf(x, y)
 #else
-#define apnc_tanh(x)  tanh(x)
-#define apnc_sin(x)   sin(x)
-#define apnc_cos(x)   cos(x)
-#define apnc_atan(x)  atan(x)
-#define apnc_sqrt(x)  sqrt(x)
-#define apnc_floor(x) floor(x)
+#define apnc_sqrt(x)        sqrt(x)
+#define apnc_floor(x)       floor(x)
+#define apnc_abs(x)         fabs(x)
+#define apnc_copysign(x, y) copysign(x, y)
 #endif
+
+#if defined(APNC_LIBM) && !defined(APNC_SINGLE)
+#define apnc_tanh(x)     tanh(x)
+#define apnc_sin_unit(x) sin(x)
+#define apnc_cos_unit(x) cos(x)
+#define apnc_atan(x)     atan(x)
+#endif
+
+#if defined(APNC_LIBM) || defined(APNC_SINGLE)
+
+static inline void apnc_sin_cos(apnc_real x, apnc_real *sine, apnc_real *cosine) {
+    *sine = apnc_sin_unit(x);
+    *cosine = apnc_cos_unit(x);
+}
+
+#else
+
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#endif
+
+#define APNC_TO_WHOLE 6755399441055744.0 /* 1.5 * 2^52: adding it leaves the nearest integer */
+
+/* 2^n of a number n to which APNC_TO_WHOLE has been added, |n| < 1000. */
+static inline double apnc_power_of_two(double shifted) {
+    uint64_t bits;
+    memcpy(&bits, &shifted, sizeof bits);
+    bits = (bits + 1023) << 52;
+    memcpy(&shifted, &bits, sizeof bits);
+    return shifted;
+}
+
+/* Hyperbolic tangent. With exp(2 x) = S (1 + T) / (1 - T), S a power of two and T the tangent of
+ * the rest u, it takes one division. */
+static inline double apnc_tanh(double x) {
+    const double below = x < 20.0 ? x : 20.0;
+    const double y = below > -20.0 ? below : -20.0;
+    const double shifted = y * 2.8853900817779268 + APNC_TO_WHOLE;
+    const double n = shifted - APNC_TO_WHOLE;
+    const double S = apnc_power_of_two(shifted);
+    const double u = (y - n * 0.3465735900681466) - n * 2.118260682904642e-10;
+    const double z = u * u, zz = z * z;
+    const double P = (-0.3333333333333249 + 0.13333333332783764 * z) +
+                     zz * ((-0.05396825278203011 + 0.02186937071535709 * z) +
+                           zz * (-0.008857308779414536 + 0.0034448377886585886 * z));
+    const double T = u + u * z * P;
+    const double more = S + 1.0, less = S - 1.0;
+    return (less + more * T) / (more + less * T);
+}
+
+/* Sine for |x| <= 1. */
+static inline double apnc_sin_unit(double x) {
+    const double z = x * x, zz = z * z;
+    const double P = (-0.16666666666666666 + 0.008333333333333134 * z) +
+                     zz * ((-0.00019841269841099746 + 2.7557319155039287e-06 * z) +
+                           zz * ((-2.505209341098503e-08 + 1.6057253432310473e-10 * z) +
+                                 zz * -7.5359841605597e-13));
+    return x + x * z * P;
+}
+
+/* Cosine for |x| <= 1. */
+static inline double apnc_cos_unit(double x) {
+    const double z = x * x, zz = z * z;
+    const double P = (0.041666666666665235 + -0.001388888888870282 * z) +
+                     zz * ((2.4801587210548688e-05 + -2.755729723898453e-07 * z) +
+                           zz * (2.0873945504611635e-09 + -1.1287949048293017e-11 * z));
+    return (1.0 - 0.5 * z) + zz * P;
+}
+
+/* Sine and cosine of an angle of some turns [rad]; pi / 2 in three parts, so that their zeros are
+ * where they should be. */
+static inline void apnc_sin_cos(double x, double *sine, double *cosine) {
+    const double shifted = x * 0.6366197723675814 + APNC_TO_WHOLE;
+    const double n = shifted - APNC_TO_WHOLE;
+    const double u =
+        ((x - n * 1.5707963267341256) - n * 6.077100506303966e-11) - n * 2.0222662487959506e-21;
+    const double s = apnc_sin_unit(u), c = apnc_cos_unit(u);
+    uint64_t quarter; /* its last two bits, those of n */
+    memcpy(&quarter, &shifted, sizeof quarter);
+    *sine = quarter & 1 ? c : s;
+    *cosine = quarter & 1 ? s : c;
+    if (quarter & 2) *sine = -*sine;
+    if ((quarter + 1) & 2) *cosine = -*cosine;
+}
+
+/* Arc tangent for |x| <= tan(pi / 8). */
+static inline double apnc_atan(double x) {
+    const double z = x * x, zz = z * z, z4 = zz * zz;
+    const double low = (-0.333333333333332 + 0.19999999999953202 * z) +
+                       zz * (-0.1428571428016196 + 0.11111110781917292 * z);
+    const double middle = (-0.09090897718204956 + 0.07692059588503802 * z) +
+                          zz * (-0.06663097699701188 + 0.05847848063705777 * z);
+    const double high =
+        (-0.05039138783370984 + 0.038060800488530354 * z) + zz * -0.017903544269988653;
+    return x + x * z * (low + z4 * (middle + z4 * high));
+}
 
 #endif
 
-#define APNC_PI ((apnc_real)3.14159265358979323846)
+/* Sum of n numbers in four parts, so that four additions can go on at a time; the order is fixed.
+ */
+static inline apnc_real apnc_sum(const apnc_real *x, int n) {
+    apnc_real part[4] = {0, 0, 0, 0};
+    int k = 0;
+    for (; k + 4 <= n; k += 4)
+        for (int i = 0; i < 4; i++) part[i] += x[k + i];
+    for (int i = 0; k + i < n; i++) part[i] += x[k + i];
+    return (part[0] + part[1]) + (part[2] + part[3]);
+}
+
+#endif
+
+#define APNC_PI       ((apnc_real)3.14159265358979323846)
+#define APNC_TAN_PI_8 ((apnc_real)0.41421356237309503)
 
 /* angle [rad], however far off, brought into [low, low + 2 pi). */
 static inline apnc_real apnc_wrap_far(apnc_real angle, apnc_real low) {
@@ -243,16 +361,22 @@ static inline apnc_real apnc_wrap_far(apnc_real angle, apnc_real low) {
 
 /* angle [rad] from [low - 2 pi, low + 4 pi) brought into [low, low + 2 pi). */
 static inline apnc_real apnc_wrap(apnc_real angle, apnc_real low) {
-    if (angle < low) return angle + 2 * APNC_PI;
-    return angle < low + 2 * APNC_PI ? angle : angle - 2 * APNC_PI;
+    const apnc_real down = angle < low + 2 * APNC_PI ? angle : angle - 2 * APNC_PI;
+    return angle < low ? angle + 2 * APNC_PI : down;
 }
 
-/* Angle of the vector (x, y) [rad], 0 for the zero vector. atan2 takes twice as long for signed
- * zeros and infinities, which do not occur here. */
+/* Angle of the vector (x, y) [rad], 0 for the zero vector; without branches. */
 static inline apnc_real apnc_angle(apnc_real y, apnc_real x) {
-    if (x > 0) return apnc_atan(y / x);
-    if (x < 0) return apnc_atan(y / x) + (y < 0 ? -APNC_PI : APNC_PI);
-    return y > 0 ? APNC_PI / 2 : y < 0 ? -APNC_PI / 2 : 0;
+    const apnc_real ax = apnc_abs(x), ay = apnc_abs(y);
+    const apnc_real most = ax > ay ? ax : ay, least = ay < ax ? ay : ax;
+    const int beyond = least > APNC_TAN_PI_8 * most; /* then the angle against the diagonal */
+    const apnc_real over = beyond ? least - most : least;
+    const apnc_real under = beyond ? least + most : most;
+    const apnc_real within = apnc_atan(over / (under > 0 ? under : 1));
+    const apnc_real eighth = beyond ? APNC_PI / 4 + within : within;
+    const apnc_real quarter = ay > ax ? APNC_PI / 2 - eighth : eighth;
+    const apnc_real half = x < 0 ? APNC_PI - quarter : quarter;
+    return apnc_copysign(half, y);
 }
 
 #endif
@@ -397,7 +521,7 @@ static inline apnc_real apnc_load_scale(apnc_real robot_weight) { return 2 / rob
  * most [N]. */
 static inline apnc_real apnc_load(apnc_real grf, apnc_real scale, apnc_real F_max, apnc_real most,
                                   int32_t *fault) {
-    *fault = !(grf >= 0 && grf <= most);
+    *fault = !((grf >= 0) & (grf <= most));
     const apnc_real F = *fault ? 0 : grf * scale;
     return F < F_max ? F : F_max;
 }
@@ -434,23 +558,20 @@ static inline apnc_real apnc_command(apnc_real scale, apnc_real a, apnc_real o, 
 static inline void apnc_relation(const apnc_real *phi, apnc_real *sin_phi, apnc_real *cos_phi) {
     sin_phi[0] = 0;
     cos_phi[0] = 1;
-    for (int leg = 1; leg < APNC_LEGS; leg++) {
-        sin_phi[leg] = apnc_sin(phi[leg - 1]);
-        cos_phi[leg] = apnc_cos(phi[leg - 1]);
-    }
+    for (int leg = 1; leg < APNC_LEGS; leg++)
+        apnc_sin_cos(phi[leg - 1], &sin_phi[leg], &cos_phi[leg]);
 }
 
 /* g of one neuron of every leg times gain, from the sines and cosines of its outputs o. */
-static inline void apnc_couple(apnc_real gain, const apnc_real *sin_o, const apnc_real *cos_o,
-                               const apnc_real *sin_phi, const apnc_real *cos_phi, apnc_real *g) {
+static inline void apnc_couple(apnc_real gain, const apnc_real *restrict sin_o,
+                               const apnc_real *restrict cos_o, const apnc_real *restrict sin_phi,
+                               const apnc_real *restrict cos_phi, apnc_real *restrict g) {
     apnc_real sin_x[APNC_LEGS], cos_x[APNC_LEGS];
-    apnc_real sum_sin = 0, sum_cos = 0;
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         sin_x[leg] = sin_o[leg] * cos_phi[leg] + cos_o[leg] * sin_phi[leg];
         cos_x[leg] = cos_o[leg] * cos_phi[leg] - sin_o[leg] * sin_phi[leg];
-        sum_sin += sin_x[leg];
-        sum_cos += cos_x[leg];
     }
+    const apnc_real sum_sin = apnc_sum(sin_x, APNC_LEGS), sum_cos = apnc_sum(cos_x, APNC_LEGS);
     for (int leg = 0; leg < APNC_LEGS; leg++)
         g[leg] = gain * (sin_x[leg] * sum_cos - cos_x[leg] * sum_sin);
 }
@@ -492,11 +613,13 @@ static inline void apnc_acquisition_start(apnc_acquisition *s) {
 }
 
 /* Low-passed angle between the vectors (o1, o2) of leg 1 and of leg k. */
-static inline void apnc_acquire_vector(apnc_acquisition *s, apnc_real phase_filter,
-                                       const apnc_real *o1, const apnc_real *o2, apnc_real *angle) {
+static inline void apnc_acquire_vector(apnc_acquisition *restrict s, apnc_real phase_filter,
+                                       const apnc_real *restrict o1, const apnc_real *restrict o2,
+                                       apnc_real *restrict angle) {
+    const apnc_real first1 = o1[0], first2 = o2[0];
     for (int r = 0; r < APNC_RELATIONS; r++) {
-        const apnc_real re = o1[0] * o1[r + 1] + o2[0] * o2[r + 1];
-        const apnc_real im = o2[0] * o1[r + 1] - o1[0] * o2[r + 1];
+        const apnc_real re = first1 * o1[r + 1] + first2 * o2[r + 1];
+        const apnc_real im = first2 * o1[r + 1] - first1 * o2[r + 1];
         s->re[r] += phase_filter * (re - s->re[r]);
         s->im[r] += phase_filter * (im - s->im[r]);
         angle[r] = apnc_angle(s->im[r], s->re[r]);
@@ -533,25 +656,26 @@ static inline void apnc_acquire_peak(apnc_acquisition *s, const apnc_real *o1, a
 static inline void apnc_estimation_start(apnc_estimation *s) { memset(s, 0, sizeof *s); }
 
 /* d(n) = |Phi(n) - mean(Phi(n-1) ... Phi(n-N))| (Eq. 13-15). */
-static inline apnc_real apnc_distance(apnc_estimation *s, int N, const apnc_real *angle) {
+static inline apnc_real apnc_distance(apnc_estimation *restrict s, int N,
+                                      const apnc_real *restrict angle) {
     const apnc_real share = (apnc_real)1 / N;
-    apnc_real squares = 0;
+    apnc_real square[APNC_RELATIONS];
     apnc_real *row = s->window[s->oldest];
     for (int r = 0; r < APNC_RELATIONS; r++) {
-        s->unwrapped[r] += apnc_wrap(angle[r] - s->angle_before[r], -APNC_PI);
-        s->angle_before[r] = angle[r];
-        const apnc_real deviation = s->unwrapped[r] - s->sum[r] * share;
-        squares += deviation * deviation;
-        s->sum[r] += s->unwrapped[r] - row[r];
-        row[r] = s->unwrapped[r];
+        const apnc_real now = s->unwrapped[r] + apnc_wrap(angle[r] - s->angle_before[r], -APNC_PI);
+        const apnc_real deviation = now - s->sum[r] * share;
+        square[r] = deviation * deviation;
+        s->sum[r] += now - row[r];
+        s->unwrapped[r] = row[r] = now;
     }
+    memcpy(s->angle_before, angle, sizeof s->angle_before);
     s->oldest = s->oldest + 1 < N ? s->oldest + 1 : 0;
     if (s->oldest == 0) { /* summed anew once per round, so that rounding does not pile up */
         for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] = 0;
         for (int i = 0; i < N; i++)
             for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] += s->window[i][r];
     }
-    return apnc_sqrt(squares);
+    return apnc_sqrt(apnc_sum(square, APNC_RELATIONS));
 }
 
 /* Whether kappa may switch on at this tick (Eq. 16, or armed first and held). */
@@ -629,7 +753,8 @@ static void apnc_reset(const apnc_parameters *p, apnc_state *state) {
         c->o1[leg] = p->o1_start;
         c->o2[leg] = p->o2_start;
         c->theta_hip_before[leg] = (apnc_real)INFINITY;
-        c->F_before[leg] = (apnc_real)INFINITY; /* a robot that already stands does not touch down */
+        c->F_before[leg] =
+            (apnc_real)INFINITY; /* a robot that already stands does not touch down */
     }
     apnc_acquisition_start(&state->acquisition);
     apnc_estimation_start(&state->estimation);
@@ -652,7 +777,8 @@ static int couplings_on(const apnc_parameters *p, const apnc_state *state) {
 }
 
 /* Outputs that follow from the circuits' state alone. */
-static void observe(const apnc_parameters *p, const apnc_state *state, apnc_outputs *out) {
+static void observe(const apnc_parameters *restrict p, const apnc_state *restrict state,
+                    apnc_outputs *restrict out) {
     const apnc_circuits *c = &state->circuits;
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         const apnc_real scale = apnc_amplitude_scale(p, state->turn, leg);
@@ -683,17 +809,9 @@ static void apnc_init(const apnc_parameters *p, apnc_state *state, apnc_outputs 
     observe_rest(p, state, out);
 }
 
-static apnc_real feedback_gain(const apnc_parameters *p, apnc_real K_f, apnc_real K_s,
-                               apnc_real kappa) {
-    if (p->method == APNC_METHOD_TEGOTAE) return apnc_tegotae_gain(p);
-    if (p->method == APNC_METHOD_PHASE_RESET) return 0;
-    const apnc_real gamma = apnc_gain(K_f, K_s);
-    return kappa > 0 ? p->feedback_kept * gamma : gamma;
-}
-
 /* Phases, their stability and kappa at n; the angles [rad] are returned for live coupling. */
-static void communicate(const apnc_parameters *p, apnc_state *state, apnc_real *angle,
-                        apnc_outputs *out) {
+static void communicate(const apnc_parameters *restrict p, apnc_state *restrict state,
+                        apnc_real *restrict angle, apnc_outputs *restrict out) {
     const apnc_circuits *c = &state->circuits;
     apnc_memory *memory = &state->memory;
     if (p->phase_measure == APNC_PHASE_MEASURE_PEAK)
@@ -717,71 +835,99 @@ typedef struct {
     apnc_real sin_o1[APNC_LEGS], cos_o1[APNC_LEGS], sin_o2[APNC_LEGS], cos_o2[APNC_LEGS];
 } trigonometry;
 
-static void evaluate(const apnc_circuits *c, int coupled, trigonometry *t) {
+static void evaluate(const apnc_circuits *restrict c, int coupled, trigonometry *restrict t) {
+#ifdef APNC_LIBM /* sine and cosine of one number side by side are computed at once */
+    for (int leg = 0; coupled && leg < APNC_LEGS; leg++) {
+        t->sin_o1[leg] = apnc_sin_unit(c->o1[leg]);
+        t->cos_o1[leg] = apnc_cos_unit(c->o1[leg]);
+        t->sin_o2[leg] = apnc_sin_unit(c->o2[leg]);
+        t->cos_o2[leg] = apnc_cos_unit(c->o2[leg]);
+    }
+    if (coupled) return;
+#endif
     for (int leg = 0; leg < APNC_LEGS; leg++) {
-        const apnc_real o1 = c->o1[leg], o2 = c->o2[leg];
-        if (coupled) { /* side by side, so that the compiler takes sine and cosine at once */
-            t->sin_o1[leg] = apnc_sin(o1);
-            t->cos_o1[leg] = apnc_cos(o1);
-            t->sin_o2[leg] = apnc_sin(o2);
-            t->cos_o2[leg] = apnc_cos(o2);
-        } else {
-            t->cos_o1[leg] = apnc_cos(o1);
-            t->sin_o2[leg] = apnc_sin(o2);
-        }
+        t->cos_o1[leg] = apnc_cos_unit(c->o1[leg]);
+        t->sin_o2[leg] = apnc_sin_unit(c->o2[leg]);
+    }
+    if (!coupled) return;
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        t->sin_o1[leg] = apnc_sin_unit(c->o1[leg]);
+        t->cos_o2[leg] = apnc_cos_unit(c->o2[leg]);
     }
 }
 
-static void feed_back(const apnc_parameters *p, const apnc_circuits *c, const apnc_real *F,
-                      const trigonometry *t, apnc_outputs *out) {
-    for (int leg = 0; leg < APNC_LEGS; leg++) {
-        out->gamma[leg] = feedback_gain(p, c->K_f[leg], c->K_s[leg], out->kappa);
+static void feed_back(const apnc_parameters *restrict p, const apnc_circuits *restrict c,
+                      const apnc_real *restrict F, const trigonometry *restrict t,
+                      apnc_outputs *restrict out) {
+    const int learns = p->method == APNC_METHOD_APNC || p->method == APNC_METHOD_APC;
+    const apnc_real kept = out->kappa > 0 ? p->feedback_kept : 1;
+    const apnc_real fixed = p->method == APNC_METHOD_TEGOTAE ? apnc_tegotae_gain(p) : 0;
+    for (int leg = 0; leg < APNC_LEGS; leg++) out->gamma[leg] = fixed;
+    for (int leg = 0; learns && leg < APNC_LEGS; leg++)
+        out->gamma[leg] = kept * apnc_gain(c->K_f[leg], c->K_s[leg]);
+    for (int leg = 0; leg < APNC_LEGS; leg++)
         apnc_feedback(out->gamma[leg], F[leg], t->cos_o1[leg], t->sin_o2[leg], &out->f1[leg],
                       &out->f2[leg]);
-        out->g1[leg] = out->g2[leg] = 0;
-    }
+    memset(out->g1, 0, sizeof out->g1);
+    memset(out->g2, 0, sizeof out->g2);
 }
 
 static void couple(const apnc_parameters *p, const apnc_memory *memory, const apnc_real *angle,
                    const trigonometry *t, apnc_outputs *out) {
-    const apnc_real *sin_phi = memory->sin_phi, *cos_phi = memory->cos_phi;
     const apnc_real gain = p->coupling_sign == APNC_COUPLING_SIGN_PRINTED ? p->xi : -p->xi;
-    apnc_real sin_now[APNC_LEGS], cos_now[APNC_LEGS];
-    if (!p->phi_frozen) {
-        apnc_relation(angle, sin_now, cos_now);
-        sin_phi = sin_now;
-        cos_phi = cos_now;
-    }
+    apnc_real sin_phi[APNC_LEGS], cos_phi[APNC_LEGS];
+    memcpy(sin_phi, memory->sin_phi, sizeof sin_phi);
+    memcpy(cos_phi, memory->cos_phi, sizeof cos_phi);
+    if (!p->phi_frozen) apnc_relation(angle, sin_phi, cos_phi);
     apnc_couple(gain, t->sin_o1, t->cos_o1, sin_phi, cos_phi, out->g1);
     apnc_couple(gain, t->sin_o2, t->cos_o2, sin_phi, cos_phi, out->g2);
 }
 
-/* State at n + 1. F: loads over half the weight at n. */
-static void advance(const apnc_parameters *p, apnc_state *state, const apnc_real *F,
-                    const apnc_outputs *out) {
-    apnc_circuits *c = &state->circuits;
-    const int learns = p->method == APNC_METHOD_APNC || p->method == APNC_METHOD_APC;
+static void learn(const apnc_parameters *restrict p, apnc_circuits *restrict c,
+                  const apnc_real *restrict F) {
     for (int leg = 0; leg < APNC_LEGS; leg++) {
-        apnc_real a1, a2;
-        apnc_activation(p, state->MI, c->o1[leg], c->o2[leg], &a1, &a2);
-        a1 = a1 - out->f1[leg] + out->g1[leg];
-        a2 = a2 - out->f2[leg] + out->g2[leg];
-        if (p->method == APNC_METHOD_PHASE_RESET &&
-            apnc_touched_down(p, F[leg], c->F_before[leg])) {
-            a1 = APNC_A1_AT_TOUCH_DOWN;
-            a2 = APNC_A2_AT_TOUCH_DOWN;
-        }
-        if (learns) {
-            const apnc_real e = apnc_error(F[leg], c->grf_expected[leg]);
-            c->K_f[leg] = apnc_learn(p->A_f, c->K_f[leg], p->B_f, e);
-            c->K_s[leg] = apnc_learn(p->A_s, c->K_s[leg], p->B_s, e);
-        }
-        const apnc_real G = apnc_stance_expected(out->theta_hip[leg], c->theta_hip_before[leg]);
+        const apnc_real e = apnc_error(F[leg], c->grf_expected[leg]);
+        c->K_f[leg] = apnc_learn(p->A_f, c->K_f[leg], p->B_f, e);
+        c->K_s[leg] = apnc_learn(p->A_s, c->K_s[leg], p->B_s, e);
+    }
+}
+
+static void expect(const apnc_parameters *restrict p, apnc_circuits *restrict c,
+                   const apnc_real *restrict theta_hip) {
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        const apnc_real G = apnc_stance_expected(theta_hip[leg], c->theta_hip_before[leg]);
         c->grf_expected[leg] = apnc_expect(p, c->grf_expected[leg], G);
-        c->theta_hip_before[leg] = out->theta_hip[leg];
-        c->F_before[leg] = F[leg];
-        c->o1[leg] = apnc_output(a1);
-        c->o2[leg] = apnc_output(a2);
+        c->theta_hip_before[leg] = theta_hip[leg];
+    }
+}
+
+static void restart_at_touch_down(const apnc_parameters *p, const apnc_circuits *c,
+                                  const apnc_real *F, apnc_real *a1, apnc_real *a2) {
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        if (!apnc_touched_down(p, F[leg], c->F_before[leg])) continue;
+        a1[leg] = APNC_A1_AT_TOUCH_DOWN;
+        a2[leg] = APNC_A2_AT_TOUCH_DOWN;
+    }
+}
+
+/* State at n + 1. F: loads over half the weight at n. One loop per block, so that the compiler
+ * takes several legs at once. */
+static void advance(const apnc_parameters *restrict p, apnc_state *restrict state,
+                    const apnc_real *restrict F, const apnc_outputs *restrict out) {
+    apnc_circuits *c = &state->circuits;
+    apnc_real a1[APNC_LEGS], a2[APNC_LEGS];
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        apnc_activation(p, state->MI, c->o1[leg], c->o2[leg], &a1[leg], &a2[leg]);
+        a1[leg] = a1[leg] - out->f1[leg] + out->g1[leg];
+        a2[leg] = a2[leg] - out->f2[leg] + out->g2[leg];
+    }
+    if (p->method == APNC_METHOD_PHASE_RESET) restart_at_touch_down(p, c, F, a1, a2);
+    if (p->method == APNC_METHOD_APNC || p->method == APNC_METHOD_APC) learn(p, c, F);
+    expect(p, c, out->theta_hip);
+    memcpy(c->F_before, F, sizeof c->F_before);
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        c->o1[leg] = apnc_output(a1[leg]);
+        c->o2[leg] = apnc_output(a2[leg]);
     }
 }
 
