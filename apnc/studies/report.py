@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from apnc.bench.run import machine
+from apnc.loop.provenance import what_was_run
 from apnc.report.figure import Figure
 from apnc.report.folder import Write
 from apnc.report.html import page
@@ -17,6 +18,7 @@ from apnc.studies.plots import CRITERIA, style
 from apnc.studies.registry import STUDIES, load
 from apnc.studies.rows import Row, matching, methods_in
 from apnc.studies.study import Study, Trial
+from apnc.studies.table import markdown
 
 TABLE_FILE: Final = "trials.csv"
 
@@ -47,7 +49,7 @@ def files_of(
         for name in STUDIES
         if (own := matching(rows, study=name))
     ]
-    facts = _facts(rows, wall_s)
+    facts = _facts(grid, rows, wall_s)
     texts = {
         "report.html": page(
             "study.html.j2",
@@ -99,25 +101,30 @@ def _asked(study: Study, grid: Sequence[Trial], rows: Sequence[Row]) -> list[tup
     ]
 
 
-def _facts(rows: Sequence[Row], wall_s: float) -> list[tuple[str, str]]:
-    here = machine()
+def _facts(grid: Sequence[Trial], rows: Sequence[Row], wall_s: float) -> list[tuple[str, str]]:
+    here, versions = machine(), what_was_run(grid[0].experiment)["versions"]
     simulated = sum(row["duration"] for row in rows)
     return [
         ("trials", f"{len(rows)}, {simulated:.0f} s simulated in {wall_s / 60:.1f} min"),
         ("machine", here["processor"]),
-        ("apnc", f"{', '.join(sorted({row['version'] for row in rows}))}, commit {here['commit']}"),
-        ("python", here["python"]),
+        ("commit", here["commit"]),
+        ("versions", ", ".join(f"{name} {version}" for name, version in versions.items())),
     ]
 
 
 def claims_markdown(parts: Sequence[Part], facts: Sequence[tuple[str, str]]) -> str:
     """The claims as a Markdown table."""
-    lines = [*(f"- {name}: {text}" for name, text in facts), ""]
-    lines += ["| paper says | where | measured (median and 95 % interval) | verdict |"]
-    lines += ["|---|---|---|---|"]
-    for claim, found in (pair for part in parts for pair in part.claims):
-        lines.append(f"| {claim.text} | {claim.place} | {found.measured} | **{found.verdict}** |")
-    return "\n".join(lines) + "\n"
+    head = "".join(f"- {name}: {text}\n" for name, text in facts)
+    return f"{head}\n" + markdown(
+        {
+            "paper says": claim.text,
+            "where": claim.place,
+            "measured (median and 95 % interval)": found.measured,
+            "verdict": f"**{found.verdict}**",
+        }
+        for part in parts
+        for claim, found in part.claims
+    )
 
 
 def write_table(rows: Sequence[Row], path: Path) -> None:
