@@ -1,4 +1,8 @@
-"""Regression values: rows of commit 92b5ace, before there was one study machine."""
+"""Regression values: rows of the commit that brought tanh, sine and cosine of our own.
+
+Before it rows were, bit for bit, those of commit 92b5ace; the last bits of these functions moved
+the figures of a walk as much as another seed of the noise would, or less.
+"""
 
 from __future__ import annotations
 
@@ -14,10 +18,10 @@ ROWS: list[tuple[str, Row, Row]] = [
         {
             "convergence_time_s": 1.8833333333333333,
             "convergence_time_authors_s": 0.9166666666666666,
-            "path_speed_m_per_s": 0.1462691409499894,
-            "balance": 153.4283458674494,
-            "cost_of_transport": 1.253751269808672,
-            "phi_final_12": 3.1699513665723984,
+            "path_speed_m_per_s": 0.14594544805530438,
+            "balance": 151.85344422063727,
+            "cost_of_transport": 1.257716499303793,
+            "phi_final_12": 3.169622244283418,
         },
     ),
     (
@@ -26,24 +30,24 @@ ROWS: list[tuple[str, Row, Row]] = [
         {
             "convergence_time_s": None,
             "convergence_time_authors_s": 40.199999999999996,
-            "path_speed_m_per_s": 0.025418126880240803,
-            "balance": 118.8471259024792,
-            "cost_of_transport": 2.458239234006596,
-            "phi_final_12": 1.4563483496516638,
+            "path_speed_m_per_s": 0.025418126880244814,
+            "balance": 118.84712590249933,
+            "cost_of_transport": 2.4582392340061854,
+            "phi_final_12": 1.4563483496505247,
         },
     ),
     (
         "steering",
         {"course": "turns"},
         {
-            "yaw_rate_section_2": -0.07617364575596744,
-            "yaw_rate_section_3": 0.14308837681244108,
+            "yaw_rate_section_2": -0.07617358032438977,
+            "yaw_rate_section_3": 0.14308850285620486,
             "convergence_time_s": 3.15,
             "convergence_time_authors_s": 2.533333333333333,
-            "path_speed_m_per_s": 0.0896263948779073,
-            "balance": 75.02735213880456,
-            "cost_of_transport": 1.225524838394476,
-            "phi_final_12": 3.1477748760103523,
+            "path_speed_m_per_s": 0.08962637556936692,
+            "balance": 75.02731645529111,
+            "cost_of_transport": 1.2255251651375318,
+            "phi_final_12": 3.1477744729281287,
         },
     ),
     (
@@ -52,11 +56,11 @@ ROWS: list[tuple[str, Row, Row]] = [
         {
             "state_formation_time_s": 1.7333333333333334,
             "state_front_stopped": True,
-            "state_speed_s2": 0.022225318478972817,
+            "state_speed_s2": 0.022225318452285536,
             "state_in_phase": True,
-            "path_speed_m_per_s": 0.04779583302261049,
-            "balance": 147.54531419474216,
-            "cost_of_transport": 1.863526515581275,
+            "path_speed_m_per_s": 0.04779583302425986,
+            "balance": 147.54531421512615,
+            "cost_of_transport": 1.8635265155863923,
         },
     ),
 ]
