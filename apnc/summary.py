@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 LATE_S: Final = 10.0
 """Last part of a run whose speed and phase error are given by themselves [s]: ten strides."""
 
+FELL_AT_ONCE_S: Final = 2.0
+"""A run that fell before this did not walk: not two strides at the slowest rate [s]."""
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -153,10 +156,16 @@ def _formation(record: Record, touch: int | None) -> dict[str, Any]:
 
 
 def _sound(record: Record) -> Record:
-    """The record, without samples if it diverged or holds a value that is not finite."""
+    """The record, without samples if it diverged, fell at once or holds a value not finite."""
+    if record.end == "fell" and record.ended_at < FELL_AT_ONCE_S:
+        return _without_samples(record)
     channels = [*record.plant.values(), record.controller["o1"], record.controller["o2"]]
     if record.end != "diverged" and all(np.isfinite(values).all() for values in channels):
         return record
+    return _without_samples(record)
+
+
+def _without_samples(record: Record) -> Record:
     plant = {name: values[:0] for name, values in record.plant.items()}
     controller = {name: values[:0] for name, values in record.controller.items()}
     return replace(record, time=record.time[:0], plant=plant, controller=controller)

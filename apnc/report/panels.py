@@ -94,6 +94,6 @@ def stacked(
     for y, (label, lines) in zip(names, rows, strict=True):
         # plotly takes no axis that matches itself
         own = {name: value for name, value in axes.items() if (name, value) != ("matches", y)}
-        layout[f"yaxis{y[1:]}"] = theme.axis(label, nticks=3, showline=True, mirror=True, **own)
+        layout[f"yaxis{y[1:]}"] = theme.axis(label, nticks=5, showline=True, mirror=True, **own)
         data += [trace | {"yaxis": y} for trace in lines]
     return Figure(key, title, note, data, layout)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any, Final
 
 from apnc import metrics
@@ -124,7 +124,8 @@ def _plain(value: Any) -> str:
     if isinstance(value, tuple | list):
         return " ".join(_plain(entry) for entry in value)
     if hasattr(value, "text"):
-        return str(value.text())
+        slope = f", slope {math.degrees(value.slope):.3g}°" if value.slope else ""
+        return str(replace(value, slope=0.0).text()) + slope
     return f"{value:.6g}" if isinstance(value, float) else str(getattr(value, "name", value))
 
 

@@ -359,3 +359,12 @@ def test_steps_of_a_command_are_kept() -> None:
     steps = ((0.0, 0.08), (2.0, 0.15))
     s = summarise(replace(walk, experiment=replace(walk.experiment, mi=steps)))
     assert s.mi == steps
+
+
+@pytest.mark.parametrize(("duration", "measured"), [(1.0, False), (6.0, True)])
+def test_a_fall_at_once_is_no_walk_to_measure(duration: float, measured: bool) -> None:
+    record = replace(synthetic_record(duration), end=End.fell)
+    summary = summarise(record)
+    assert summary.fell and not summary.converged
+    assert (summary.path_speed_m_per_s is not None) is measured
+    assert (summary.balance is not None) is measured

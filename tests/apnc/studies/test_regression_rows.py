@@ -1,7 +1,7 @@
 """Regression values: rows of the commit that brought tanh, sine and cosine of our own.
 
 Before it rows were, bit for bit, those of commit 92b5ace; the last bits of these functions moved
-the figures of a walk as much as another seed of the noise would, or less.
+speed, balance and cost of the walk at MI 0.28 by up to 1 %, and those of slow walks by 1e-6.
 """
 
 from __future__ import annotations
