@@ -120,3 +120,44 @@ def test_with_the_same_commands_the_engines_meet_at_first_order_in_the_step() ->
     found = distances(steps)
     assert found[0] < 1e-4  # of 80 mm that it walks
     assert order_of(steps, found) == pytest.approx(1.0, abs=0.05)  # a thousandth of the force shows
+
+
+def test_the_study_runs_every_engine_and_shows_them_side_by_side() -> None:
+    from apnc.studies.engine import grid_of  # noqa: PLC0415
+    from apnc.studies.engines import STUDY  # noqa: PLC0415
+
+    trials = grid_of("engines", 2, chosen={"mi": ["0.15"]})
+    found = {(t.cell["engine"], t.experiment.engine, t.experiment.contact) for t in trials}
+    assert found == {
+        ("exudyn", "exudyn", "compiled"),
+        ("mujoco", "mujoco", "compiled"),
+        ("mujoco_contact", "mujoco", "mujoco"),
+    }
+    rows = [
+        {"study": "engines", **trial.cell, "convergence_time_s": 1.0 + k, "fell": False}
+        for k, trial in enumerate(trials)
+    ]
+    table = STUDY.table(rows).splitlines()  # type: ignore[misc]
+    assert [line.split(" | ")[1:4] for line in table[2:]] == [
+        ["Exudyn", "2/2 (16 ... 100 %)", "1.5 (1.0 ... 2.0)"],
+        ["MuJoCo", "2/2 (16 ... 100 %)", "3.5 (3.0 ... 4.0)"],
+        ["MuJoCo, its own contact", "2/2 (16 ... 100 %)", "5.5 (5.0 ... 6.0)"],
+    ]
+    first = STUDY.figures(rows)[0]
+    assert [trace["y"] for trace in first.data] == [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]
+
+
+def test_cost_at_equal_error_goes_along_the_powers_of_the_step() -> None:
+    from apnc.studies.engines.speed import Cost, at_equal_error  # noqa: PLC0415
+
+    # twice the error at half the time per step: at equal error the same time
+    costs = {("exudyn", n): Cost(1.0 / n, 2.0 * n) for n in (16, 32, 64)}
+    costs |= {("mujoco", n): Cost(2.0 / n, 1.0 * n) for n in (16, 32, 64)}
+    assert at_equal_error(costs, "exudyn") == pytest.approx(1.0)
+    assert at_equal_error(costs, "mujoco") == pytest.approx(1.0)
+    costs |= {("mujoco", n): Cost(8.0 / n, 1.0 * n) for n in (16, 32, 64)}  # beyond the measured
+    assert at_equal_error(costs, "mujoco") == pytest.approx(4.0)
+    bent = zip((16, 32, 64), (0.02, 0.01, 0.001), strict=True)
+    costs |= {("mujoco", n): Cost(error, 1.0 * n) for n, error in bent}
+    wanted, nearest = costs["exudyn", 32].force_error, 0.02  # by the two coarsest: first order
+    assert at_equal_error(costs, "mujoco") == pytest.approx(16 * nearest / wanted / 64)

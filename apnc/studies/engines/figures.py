@@ -33,6 +33,9 @@ COLUMNS: Final = {
 }
 """What is drawn over MI: column and title of its axis."""
 
+SHOWN: Final = 15.0
+"""How much of a walk is drawn over time [s]."""
+
 HALF_TURNS: Final = {"tickvals": [0.0, np.pi], "ticktext": ["0", "π"]}
 
 
@@ -84,10 +87,11 @@ def walks(records: Mapping[str, Record]) -> Figure:
     data: list[Trace] = []
     for engine, record in records.items():
         name, colour, _ = STYLES[engine]
-        phases = np.angle(np.exp(1j * (record.controller["phi"] + 1.0))) - 1.0
-        phases[phases < -1.0] += 2.0 * np.pi
+        shown = record.time < SHOWN
+        phases = (record.controller["phi"][shown] + 1.0) % (2.0 * np.pi) - 1.0
+        phases[1:][np.abs(np.diff(phases, axis=0)) > np.pi] = np.nan  # once round: a gap
         for k in range(phases.shape[1]):
-            group = {"legendgroup": engine, "showlegend": k == 0, "x": float32(record.time)}
+            group = {"legendgroup": engine, "showlegend": k == 0, "x": float32(record.time[shown])}
             data.append(line(phases[:, k], name, colour, width=1.2) | group)
     some = next(iter(records.values())).experiment
     axis = theme.axis("φ12, φ13, φ14 [rad]", **HALF_TURNS)

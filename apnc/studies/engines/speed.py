@@ -71,8 +71,9 @@ def at_equal_error(costs: Mapping[Key, Cost], engine: str) -> float:
     """
     wanted = costs[USUAL]
     own = sorted(cost for (name, _), cost in costs.items() if name == engine)
-    above = next((k for k, cost in enumerate(own) if cost.force_error >= wanted.force_error), 0)
-    a, b = own[max(1, above) - 1], own[max(1, above)]
+    above = sum(cost.force_error < wanted.force_error for cost in own)
+    at = min(max(1, above), len(own) - 1)
+    a, b = own[at - 1], own[at]
     (x0, y0), (x1, y1) = np.log(a), np.log(b)
     share = (np.log(wanted.force_error) - x0) / (x1 - x0)
     return float(np.exp(y0 + share * (y1 - y0)) / wanted.tick_s)
