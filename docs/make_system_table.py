@@ -21,7 +21,7 @@ import numpy as np
 
 from apnc import Experiment, metrics
 from apnc.loop.fmu_controller import FmuController
-from apnc.loop.simulate import exudyn_plant, simulate
+from apnc.loop.simulate import plant_of, simulate
 from apnc.system.build import build_system
 from build_fmu.build import host_fmu
 
@@ -59,7 +59,7 @@ def direct(mi: float, seed: int, coupling: str = "") -> dict[str, Any]:
         grf, position = record.plant["grf"], record.plant["position"]
         wall = record.wall_s
         return measured({"o1": o1, "o2": o2, "grf": grf, "position": position, "wall": wall})
-    plant, Ts = exudyn_plant(experiment), experiment.Ts
+    plant, Ts = plant_of(experiment), experiment.Ts
     parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
     rows = []
     with FmuController(host_fmu(), parameters) as controller:
