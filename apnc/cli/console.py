@@ -62,7 +62,7 @@ def show_table(rows: Iterable[Iterable[str]], *headings: str) -> None:
 
 @contextmanager
 def bar(label: str) -> Iterator[Callable[[float, float, Callable[[float], str]], None]]:
-    """A bar with the time that remains; words that say it will come until something is done.
+    """A bar with the time that remains; a line of text before the first step is done.
 
     Yields:
         What to call with the simulated time done and its total [s], and what words the state given

@@ -164,7 +164,7 @@ def _formed(s: Summary) -> Verdict:
 
 def _fast(s: Summary) -> Verdict:
     if s.path_speed_m_per_s is None:
-        return Verdict("How fast?", DASH, "no figure means anything here", "plain")
+        return Verdict("How fast?", DASH, "not measured", "plain")
     stride = f"stride {number(s.stride_frequency_hz, 2, 'Hz')}"
     detail = f"{stride}, cost of transport {number(s.cost_of_transport)}"
     speed = number(s.path_speed_m_per_s, 3, "m/s")

@@ -20,7 +20,7 @@ from apnc.studies.rows import (
 )
 
 MIN_BOX: Final = 5
-"""Fewer values than this are shown one by one: quartiles of four say nothing."""
+"""Fewer values than this are shown one by one, without quartiles."""
 
 CRITERIA: Final = {
     STRICT: "strict criterion: within 0.6 rad of the trot, to the end",

@@ -30,7 +30,7 @@ class ExudynTree(Engine):
         if own and (setup.ground.slope or not setup.ground.flat):
             raise ValueError("contact 'exudyn' knows level ground without obstacles only")
         self._contact = setup.robot.contact
-        # The container owns the system: without this reference Exudyn frees it under our feet.
+        # The container owns the system: without this reference Exudyn frees it.
         self._container = exu.SystemContainer()
         self.mbs: Any = self._container.AddSystem()
         self.tree = add_tree(
@@ -74,7 +74,7 @@ def _solver_settings(step: float) -> Any:
     integration.endTime = step
     integration.verboseMode = 0
     integration.explicit.useLieGroupIntegration = False
-    # Exudyn would evaluate the equations a second time per step, for accelerations nobody reads.
+    # Exudyn would evaluate the equations a second time per step, for accelerations that are not used.
     integration.explicit.computeEndOfStepAccelerations = False
     settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
     settings.solution.file.write = False

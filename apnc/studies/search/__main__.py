@@ -54,7 +54,7 @@ def search(
             candidates = [_candidate(x) for x in points]
             seeds = [1000 * seed + generation] * len(candidates)
             found = list(pool.map(_costs, candidates, seeds))
-            # squares: one bad MI is not outweighed by many good ones
+            # squares: one large cost weighs more than many small ones
             totals = [sum(cost + cost * cost for cost in each) for each in found]
             strategy.tell(points, totals)
             mean = _candidate(strategy.result.xfavorite)
