@@ -18,10 +18,14 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import plotly
+from make_pictures import pictures
+from plotly.subplots import make_subplots
 
 from apnc import Experiment, metrics
 from apnc.loop.fmu_controller import FmuController
 from apnc.loop.simulate import plant_of, simulate
+from apnc.report import theme
 from apnc.system.build import build_system
 from build_fmu.build import host_fmu
 
@@ -166,8 +170,28 @@ def write_page(rows: list[dict[str, str]]) -> None:
     PAGE.write_text(text, encoding="utf-8")
 
 
+def draw(rows: list[dict[str, str]]) -> None:
+    """Write ``system-tools.svg``: convergence time and speed of every walk, by tool."""
+    plot = make_subplots(rows=2, cols=1, shared_xaxes=True, vertical_spacing=0.06)
+    colours = (theme.BLUE, theme.ORANGE, theme.GREEN)
+    for mi, colour in zip(MIS, colours, strict=True):
+        here = [r for r in rows if float(r["mi"]) == mi and r["tool"] in TOOLS]
+        tools = [TOOLS[r["tool"]].replace("`", "") for r in here]
+        for row, column in ((1, "convergence_time_s"), (2, "speed_m_per_s")):
+            values = [float(r[column]) if r[column] else None for r in here]
+            look = {"color": colour, "size": 8, "symbol": ("circle", "diamond", "square")[row - 1]}
+            plot.add_scatter(x=tools, y=values, mode="markers", marker=look, name=f"MI {mi:g}",
+                             offsetgroup=str(mi), showlegend=row == 1, row=row, col=1)  # fmt: skip
+    plot.update_layout(theme.layout(460, scattermode="group", hovermode="closest"))
+    for row, title in ((1, "trot after [s]"), (2, "speed [m/s]")):
+        plot.update_yaxes(row=row, col=1, **theme.axis(title, rangemode="tozero"))
+    page = plotly.io.to_html(plot, include_plotlyjs=True, div_id="system-tools")
+    picture = pictures(page)["system-tools"]
+    (DOCS / "pictures" / "system-tools.svg").write_text(picture, encoding="utf-8")
+
+
 def main() -> None:
-    """Measure if asked to, and write the page."""
+    """Measure if asked to, and write the page and its picture."""
     if "measure" in sys.argv[1:]:
         with DATA.open("w", encoding="utf-8", newline="") as file:
             writer: csv.DictWriter[str] | None = None
@@ -179,7 +203,9 @@ def main() -> None:
                 file.flush()
                 print(row)
     with DATA.open(encoding="utf-8") as file:
-        write_page(list(csv.DictReader(file)))
+        rows = list(csv.DictReader(file))
+    write_page(rows)
+    draw(rows)
 
 
 if __name__ == "__main__":
