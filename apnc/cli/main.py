@@ -50,7 +50,7 @@ def _explained(error: Exception) -> int:
         return int(error.exit_code)
     if hasattr(error, "format_message"):  # a usage error of the command-line library
         if type(error).__name__ == "NoArgsIsHelpError":
-            error.show()  # type: ignore[attr-defined]
+            error.show()  # type: ignore[attr-defined]  # known by its name, to import nothing
             return BAD_USE
         text = error.format_message()
     elif isinstance(error, ValueError | OSError | RuntimeError):

@@ -45,7 +45,7 @@ def _command(name: str, axes: tuple[str, ...]) -> Callable[..., None]:
         option("series", bool, False, "Keep the record of every trial."),
         *(option(axis, Text, None, "Some of all, separated by commas.") for axis in axes),
     ]
-    command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]  # typer reads it
     return command
 
 
