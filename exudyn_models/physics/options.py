@@ -18,7 +18,7 @@ class PlantOptions:
 
     Args:
         step: longest integration step [s]; a tick is cut into equal steps of at most this. The
-            default, 32 steps per tick at 60 Hz, is what the step-size study picked.
+            default, 16 steps per tick at 60 Hz, is what the step-size study picked.
         gravity: downward acceleration [m/s^2].
         clearance: height of the lowest foot above the ground at the start [m].
         start_hip, start_knee: joint angles of every leg at the start, relative to the reference
@@ -27,7 +27,7 @@ class PlantOptions:
             ``exudyn`` on level ground without obstacles, ``mujoco`` on planes.
     """
 
-    step: float = 1.0 / 1920.0
+    step: float = 1.0 / 960.0
     gravity: float = GRAVITY
     clearance: float = 0.0
     start_hip: float = 0.0

@@ -69,7 +69,7 @@ class Plant(LeggedPlant):
 def _solver_settings(step: float) -> Any:
     settings = exu.SimulationSettings()
     integration = settings.timeIntegration
-    integration.solverType = exu.DynamicSolverType.ExplicitEuler
+    integration.solverType = exu.DynamicSolverType.VelocityVerlet
     integration.numberOfSteps = 1
     integration.endTime = step
     integration.verboseMode = 0
