@@ -6,7 +6,8 @@ A run that does not come to its end, since the robot fell or the motion diverged
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -19,34 +20,44 @@ from apnc.loop.simulate import simulate
 from apnc.studies.search.knobs import Candidate, built_robot, gains
 from apnc.studies.states.measure import STOPPED, judge
 from apnc.studies.states.timeline import Timeline
-from apnc.studies.study import COURSE_MI
+from apnc.studies.study import COURSE_MI, WALK_MI
 from exudyn_models.conditions import Conditions
 from exudyn_models.robot import RobotDescription
 from exudyn_models.trace import Trace
 
 Array = NDArray[np.float64]
-Cost = Callable[[Record, float], float]
-"""Cost of a walk that came to its end, with the speed asked for [m/s]."""
 
 FAILED: Final = 10.0
 
-TRIAL_TICKS: Final = 660
-LAST: Final = 240
-"""Ticks at the end of a trial on which it is judged."""
+WALK_S: Final = 15.0
+LAST_S: Final = 7.0
+"""Length of a walk [s], and of its end on which the feet, the speed and the turn are judged."""
 
 TROT: Final = metrics.GAITS[4]["trot"]
 
-MI_SETS: Final = ((0.05, 0.12, 0.22, 0.29), (0.08, 0.15, 0.25, 0.28), (0.06, 0.10, 0.19, 0.27))
+BANDS: Final = (
+    (0.08, 0.06, 0.07), (0.10, 0.12, 0.13), (COURSE_MI,), (0.20, 0.18, 0.22, 0.24),
+    (0.28, 0.26, 0.30), (0.34, 0.32, 0.36), (0.40,),
+)  # fmt: skip
+"""One MI of each band is walked in a generation, in turn."""
+
 RATES: Final = (45.0, 30.0, 50.0)
-LOADED: Final = ((0.08, 0.25), (0.08, 0.15), (0.07, 0.11))
-DAMAGED: Final = (0.15, 0.08)
-"""MI, update rate [Hz], MI with payload and MI with a damaged leg of a generation, in turn."""
+"""Update rates [Hz], in turn."""
 
-WANTED_LIFT: Final = 0.0115
-"""Lift of a foot in swing that is asked for [m]; the paper's terrain study has 12.65 mm."""
+WANTED_LIFT: Final = 0.0075
+"""Lift of every foot in mid-swing that is asked for [m]; the aim of 6 mm, and a margin."""
 
-WANTED_TURN: Final = 0.2
-"""Turning rate asked for at full steering [rad/s]."""
+WANTED_SLIP: Final = 0.10
+"""Slip per stride over the stride that is allowed [1]; the aim of 0.12, and a margin."""
+
+WANTED_TURN: Final = math.radians(10.0) / 45.0
+"""Turning rate of a straight walk from which on it costs noticeably [rad/s]."""
+
+WANTED_STEERING: Final = 0.29
+"""Turning rate asked for at half steering [rad/s]; the aim of 0.25, and a margin."""
+
+WANTED_RATIO: Final = 2.0
+"""Speed at MI 0.4 over that at MI 0.15 that is asked for [1]; the paper's."""
 
 MARGIN: Final = 0.93
 """Share of the learning rates with which an oscillator under a stuck load must still stop [1]."""
@@ -56,8 +67,8 @@ MEMORY: Final = Timeline(lowered=0.0, broken=3.0, stopped=8.0, restarted=9.0, en
 STORED: Final[Mapping[str, Setting]] = {"stored": True, "phi_stored": (3.3, 3.05, 0.12)}
 """A gait that is not exact, as measured relations never are."""
 
-COSTS: Final = ("mi_0", "mi_1", "mi_2", "mi_3", "rate", "payload_0", "payload_1", "damage",
-                "memory", "turn", "blocked")  # fmt: skip
+COSTS: Final = (*(f"mi_{band[0]:.2f}" for band in BANDS), "ratio", "rate", "payload", "damage",
+                "memory", "steering", "blocked")  # fmt: skip
 """Names of the costs of a candidate; the search adds them up."""
 
 
@@ -66,64 +77,100 @@ def costs(candidate: Candidate, seed: int) -> tuple[float, ...]:
     robot, settings = built_robot(candidate), gains(candidate)
     seeds = itertools.count(100 * seed)  # another asymmetry and noise in every trial
 
-    def walked(cost: Cost, mi: float, pace: float = 1.0, **more: Any) -> float:
-        length = TRIAL_TICKS / more.get("rate", 60.0)
-        what = {"robot": robot, "settings": settings, "duration": length, **more}
+    def walked(cost: Callable[[Record], float], mi: float, **more: Any) -> tuple[float, float]:
+        """Cost of a walk and its speed [m/s]."""
+        what = {"robot": robot, "settings": settings, "duration": WALK_S, **more}
         record = simulate(Experiment(mi=mi, seed=next(seeds), **what))
-        return cost(record, pace * wanted_speed(mi)) if record.complete else FAILED
+        return (cost(record), _Late(record).speed) if record.complete else (FAILED, 0.0)
 
-    def of(values: tuple[Any, ...]) -> Any:
-        return values[seed % len(values)]
-
+    mis = [band[seed % len(band)] for band in BANDS]
+    # without the couplings in every other run: what they then store must be good by itself
     methods = ("apnc", "apc") if seed % 2 else ("apc", "apnc")
-    rate = of(RATES)
-    walks = [
-        *((mi, 1.0, {"method": methods[n % 2]}) for n, mi in enumerate(of(MI_SETS))),
-        (0.08, rate / 60.0, {"rate": rate}),
-        *((mi, 0.8, {"conditions": "C4"}) for mi in of(LOADED)),
-    ]
-    formed = [walked(formation_cost, mi, pace, **more) for mi, pace, more in walks]
-    damaged = walked(damage_cost, of(DAMAGED), conditions="C3")
+    walks = [walked(walk_cost, mi, method=methods[n % 2]) for n, mi in enumerate(mis)]
+    speeds = {mi: speed for mi, (_, speed) in zip(mis, walks, strict=True)}
+    rate = RATES[seed % len(RATES)]
     shared: dict[str, Any] = {"robot": robot, "settings": {**settings, **STORED}}
     return (
-        *formed,
-        damaged,
+        *(cost for cost, _ in walks),
+        ratio_cost(speeds[COURSE_MI], speeds[BANDS[-1][0]]),
+        walked(formation_cost, WALK_MI, rate=rate, duration=11.0 * 60.0 / rate)[0],
+        walked(payload_cost, WALK_MI, conditions="C4")[0],
+        walked(damage_cost, COURSE_MI, conditions="C3")[0],
         memory_cost(MEMORY.experiment("apnc", next(seeds), **shared)),
-        turn_cost(Experiment(seed=next(seeds), **TURNING, **shared)),
+        steering_cost(Experiment(seed=next(seeds), **STEERING, **shared)),
         3.0 * blocked_cost(settings),
     )
 
 
-def wanted_speed(mi: float) -> float:
-    """Speed asked for [m/s]: the paper's 0.08 at MI 0.15 and 0.16 at 0.4, and a little more."""
-    return 0.05 + 0.28 * mi
+class _Late:
+    """The end of a walk: speed [m/s], turning rate [rad/s], and the feet."""
+
+    def __init__(self, record: Record) -> None:
+        part = record.time >= record.time[-1] - LAST_S
+        self.time, self.plant = record.time[part], record.plant
+        self.standing = metrics.stance(record.plant["foot_force"][..., 2])[part]
+        self.starts = metrics.cycle_starts(
+            record.controller["o1"][part], record.controller["o2"][part]
+        )
+        self.feet = record.plant["foot_position"][part]
+        yaw = record.plant["rpy"][:, 2]
+        ahead = metrics.smoothed_speed(record.time, record.plant["position"], yaw)
+        self.speed = float(ahead[part].mean())
+        turned = metrics.turned(yaw[part]) or 0.0
+        self.turning = turned / float(self.time[-1] - self.time[0])
+        self._rate = metrics.stride_frequency(self.starts, 1.0 / record.experiment.rate)
+
+    def foot_costs(self) -> float:
+        """Feet that lift, do not slip and touch once, sum over the legs and three figures."""
+        stride = max(self.speed, 0.02) / (self._rate or 1.0)
+        lifts = metrics.foot_lifts(self.feet, self.standing, self.starts)
+        slips = metrics.slips(self.feet, self.standing, self.starts)
+        touches = metrics.touch_downs_per_stride(self.standing, self.starts)
+        return (
+            _sum(lifts, lambda lift: min(1.0, max(0.0, 1.0 - lift / WANTED_LIFT)))
+            + _sum(slips, lambda slip: min(2.0, max(0.0, slip / stride / WANTED_SLIP - 1.0)))
+            + _sum(touches, lambda count: min(1.0, abs(count - 1.0)))
+        )
 
 
-def formation_cost(record: Record, wanted: float) -> float:
-    """How far from an early, exact trot and a straight walk at ``wanted`` [m/s]."""
+def _sum(figures: Sequence[float | None], cost: Callable[[float], float]) -> float:
+    return sum(1.0 if figure is None else cost(figure) for figure in figures)
+
+
+def formation_cost(record: Record) -> float:
+    """How far from an early, exact trot."""
     error = _error(record, slice(None))
+    last = round(4.0 * record.experiment.rate)
     # far from the trot for long; and at the end not well inside the tolerance
     cost = 2.0 * float(np.clip(error / np.pi, 0.0, 1.0).mean())
-    cost += 1.5 * float(np.clip(error[-LAST:] - 0.2, 0.0, 1.5).mean())
-    lift = float(np.ptp(record.plant["foot_position"][-LAST:, :, 2], axis=0).mean())
-    cost += 0.5 * max(0.0, 1.0 - lift / WANTED_LIFT)
-    return cost + walking_cost(record, wanted)
+    return cost + 1.5 * float(np.clip(error[-last:] - 0.2, 0.0, 1.5).mean())
 
 
-def walking_cost(record: Record, wanted: float) -> float:
-    """How much slower than wanted [m/s], and how far from straight."""
-    yaw = record.plant["rpy"][:, 2]
-    speed = metrics.smoothed_speed(record.time, record.plant["position"], yaw)[-LAST:].mean()
-    turned = np.unwrap(yaw)[[-LAST, -1]]
-    cost = min(1.0, max(0.0, wanted - float(speed)) / 0.05)
-    return cost + min(0.5, 0.75 * abs(float(turned[1] - turned[0])))
+def walk_cost(record: Record) -> float:
+    """How far from a trot that walks straight on feet that lift and hold."""
+    late = _Late(record)
+    slow = min(1.0, max(0.0, 0.06 + 0.1 * _mi(record) - late.speed) / 0.05)
+    turning = 0.35 * math.log1p(abs(late.turning) / WANTED_TURN)
+    return formation_cost(record) + 0.25 * late.foot_costs() + slow + turning
 
 
-def damage_cost(record: Record, _: float) -> float:
+def payload_cost(record: Record) -> float:
+    """How far from a trot that walks under the payload."""
+    slow = min(1.0, max(0.0, 0.05 - _Late(record).speed) / 0.05)
+    return formation_cost(record) + slow
+
+
+def damage_cost(record: Record) -> float:
     """How far from a walk on three legs in which every oscillator runs."""
-    moved = np.ptp(record.controller["o1"][-LAST:], axis=0)
+    last = round(4.0 * record.experiment.rate)
+    moved = np.ptp(record.controller["o1"][-last:], axis=0)
     stopped = float(np.clip(1.0 - moved, 0.0, 1.0).sum())
-    return 0.5 * stopped + walking_cost(record, 0.06)
+    return 0.5 * stopped + min(1.0, max(0.0, 0.06 - _Late(record).speed) / 0.05)
+
+
+def ratio_cost(slow: float, fast: float) -> float:
+    """How far from twice the speed at MI 0.4."""
+    return min(2.0, max(0.0, WANTED_RATIO - fast / max(slow, 0.02)))
 
 
 def memory_cost(experiment: Experiment) -> float:
@@ -139,24 +186,22 @@ def memory_cost(experiment: Experiment) -> float:
     return cost
 
 
-TURNING: Final[Mapping[str, Any]] = {
+STEERING: Final[Mapping[str, Any]] = {
     "mi": COURSE_MI,
     "duration": 12.0,
-    "turn": ((0.0, 0.0), (3.0, 1.0), (7.5, -1.0)),
+    "turn": ((0.0, 0.0), (3.0, 0.5), (7.5, -0.5)),
 }
 
 
-def turn_cost(experiment: Experiment) -> float:
-    """How far from turning briskly to either side, with a stored gait."""
+def steering_cost(experiment: Experiment) -> float:
+    """How far from turning briskly, and alike, to either side, with a stored gait."""
     record = simulate(experiment)
     if not record.complete:
         return FAILED
     turned = np.unwrap(record.plant["rpy"][:, 2])[[270, 449, 540, 719]]
-    rates = (turned[1] - turned[0]) / 3.0, (turned[2] - turned[3]) / 3.0
-    cost = 0.0
-    for rate in rates:
-        cost += 0.75 * min(2.0, max(0.0, 1.0 - float(rate) / WANTED_TURN))
-    return cost
+    left, right = float(turned[1] - turned[0]) / 3.0, float(turned[2] - turned[3]) / 3.0
+    slow = sum(min(2.0, max(0.0, 1.0 - rate / WANTED_STEERING)) for rate in (left, right))
+    return slow + min(1.0, abs(left - right) / WANTED_STEERING)
 
 
 def blocked_cost(settings: Mapping[str, float]) -> float:
@@ -197,6 +242,11 @@ class _StuckSensor:
 
     def trace(self) -> Trace:
         return Trace((np.zeros(1),), lambda rows: {})
+
+
+def _mi(record: Record) -> float:
+    mi = record.experiment.mi
+    return float(mi) if isinstance(mi, int | float) else 0.0
 
 
 def _turns(o1: Array) -> int:

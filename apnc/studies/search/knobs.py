@@ -32,27 +32,26 @@ class Knob(NamedTuple):
         return (value - self.low) / (self.high - self.low)
 
 
+Candidate = Mapping[str, float]
+"""Values by the names of their knobs."""
+
 KNOBS: Final = (
-    Knob("a1", 0.06, 0.22, 0.120),
-    Knob("a2", 0.03, 0.22, 0.060),
-    Knob("b1", -0.35, 0.10, -0.065),
-    Knob("b2", -0.35, 0.15, -0.120),
-    Knob("B_f", 0.015, 0.3, 0.049, log=True),
-    Knob("B_s", 1e-4, 1.2e-2, 3e-3, log=True),
-    Knob("xi", 0.01, 0.045, 0.021, log=True),
-    Knob("trunk.com_x", 0.0, 0.015, 0.011),
-    Knob("trunk.com_z", -0.005, 0.02, -0.002),
-    Knob("servo.stiffness", 5.0, 40.0, 28.0, log=True),
-    Knob("servo.damping", 0.2, 1.5, 0.85, log=True),
-    Knob("servo.reflected_inertia", 0.008, 0.02, 0.0085, log=True),
-    Knob("contact.stiffness", 5e3, 6e4, 24e3, log=True),
-    Knob("contact.damping", 60.0, 800.0, 550.0, log=True),
-    Knob("sensor.delay", 0.025, 0.07, 0.040),
+    Knob("trunk.com_x", 0.0, 0.045, 0.028),
+    Knob("trunk.com_z", -0.012, 0.02, -0.0044),
+    Knob("servo.stiffness", 12.0, 80.0, 34.0, log=True),
+    Knob("servo.damping", 0.4, 2.5, 1.0, log=True),
+    Knob("servo.reflected_inertia", 0.008, 0.02, 0.0095, log=True),
+    Knob("contact.stiffness", 4e3, 4e4, 7860.0, log=True),
+    Knob("contact.damping", 100.0, 800.0, 510.0, log=True),
+    Knob("sensor.delay", 0.01, 0.06, 0.030),
+    Knob("B_f", 0.02, 0.3, 0.182, log=True),
+    Knob("B_s", 1e-4, 6e-3, 4.5e-4, log=True),
+    Knob("turn_gain", 0.4, 1.0, 0.9),
 )
 """Rotors of less than 0.008 kg m^2 let the feet chatter at the default step."""
 
-Candidate = Mapping[str, float]
-"""Values by the names of their knobs."""
+PUBLISHED: Final[Candidate] = {"a1": 0.14, "a2": 0.14, "b1": -0.2, "b2": -0.2, "xi": 0.01}
+"""The authors' slopes and pose, and the paper's gain of the couplings: not searched."""
 
 
 def built_robot(candidate: Candidate) -> RobotDescription:
@@ -70,4 +69,4 @@ def built_robot(candidate: Candidate) -> RobotDescription:
 
 def gains(candidate: Candidate) -> dict[str, float]:
     """Parameters of the controller of a candidate."""
-    return {name: value for name, value in candidate.items() if "." not in name}
+    return {n: value for n, value in {**PUBLISHED, **candidate}.items() if "." not in n}
