@@ -49,11 +49,14 @@ class Summary:
     largest_late_error_rad: float | None  # deviation from the target gait in the last 10 s
     stored_at_s: float | None  # when kappa first rose above 0
     stride_frequency_hz: float | None  # of the cycles of the oscillators
+    stride_length_mm: float | None  # way of the trunk along the path in a stride
     duty_factor: dict[str, float | None]  # mean share of stance in a stride, per leg
     duty_factor_mean: float | None  # over the legs
     touch_downs_per_stride: float | None  # mean over the legs; above 1 the feet scuff
+    touch_downs_by_leg: dict[str, float | None]  # mean number per stride of each foot
     foot_lift_mm: dict[str, float | None]  # in mid-swing above stance, per leg
     slip_per_stride_mm: dict[str, float | None]  # way over the ground in stance, per leg
+    slip_share: dict[str, float | None]  # the same as a share of the stride length, per leg
     balance: float | None  # 1/std(roll) + 1/std(pitch) [1/rad]; larger is steadier
     coordination: float | None  # 1 / largest spread of the share of stance; larger is more even
     cost_of_transport: float | None  # energy per weight and distance
@@ -75,7 +78,8 @@ def summarise(record: Record) -> Summary:
 
     Nothing is measured of a run that diverged or has a value that is not finite; a run that fell or
     diverged has not converged. Strides, feet and balance count from the touch moment, so that the
-    drop to the ground at the start is no stride. Loads are those of the ground, not of the sensors.
+    drop to the ground at the start is no stride; the stride length is that of the same time. Loads
+    are those of the ground, not of the sensors.
     """
     sound = _sound(record)
     weight = record.mass * metrics.GRAVITY
@@ -106,6 +110,10 @@ def _motion(record: Record, begin: int) -> dict[str, Any]:
     distance, path = metrics.forward_distance(position, yaw), metrics.path_length(position)
     speed, turned = metrics.mean_speed(time, path), metrics.turned(yaw)
     cost = metrics.cost_of_transport(time, plant["joint_work"], record.mass, path)
+    frequency = metrics.stride_frequency(starts, 1.0 / record.experiment.rate)
+    pace = metrics.mean_speed(time[begin:], metrics.path_length(position[begin:]))
+    stride, slips = _stride_length(pace, frequency), metrics.slips(feet, standing, starts)
+    touches = metrics.touch_downs_per_stride(standing, starts)
 
     def by_leg(values: Sequence[float | None], unit: float = 1.0) -> dict[str, float | None]:
         scaled = [None if value is None else unit * value for value in values]
@@ -117,16 +125,26 @@ def _motion(record: Record, begin: int) -> dict[str, Any]:
         "speed_m_per_s": metrics.mean_speed(time, distance),
         "distance_m": distance,
         "late_speed_m_per_s": _mean(metrics.smoothed_speed(time, position, yaw)[late]),
-        "stride_frequency_hz": metrics.stride_frequency(starts, 1.0 / record.experiment.rate),
+        "stride_frequency_hz": frequency,
+        "stride_length_mm": None if stride is None else 1000.0 * stride,
         "duty_factor": by_leg(duty),
         "duty_factor_mean": _mean(duty),
-        "touch_downs_per_stride": _mean(metrics.touch_downs_per_stride(standing, starts)),
+        "touch_downs_per_stride": _mean(touches),
+        "touch_downs_by_leg": by_leg(touches),
         "foot_lift_mm": by_leg(metrics.foot_lifts(feet, standing, starts), 1000.0),
-        "slip_per_stride_mm": by_leg(metrics.slips(feet, standing, starts), 1000.0),
+        "slip_per_stride_mm": by_leg(slips, 1000.0),
+        "slip_share": by_leg(slips, 1.0 / stride) if stride else dict.fromkeys(record.legs),
         "balance": metrics.balance(roll[begin:], pitch[begin:], speed),
         "coordination": metrics.coordination(standing, starts, speed),
         "cost_of_transport": cost,
     }
+
+
+def _stride_length(speed: float | None, frequency: float | None) -> float | None:
+    """Way in a stride [m]; None if the robot stands, or none of its oscillators goes round."""
+    if speed is None or speed < metrics.MIN_SPEED or frequency is None:
+        return None
+    return speed / frequency
 
 
 def _formation(record: Record, touch: int | None) -> dict[str, Any]:

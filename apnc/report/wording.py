@@ -75,6 +75,7 @@ def rows(s: Summary) -> list[tuple[str, str, str]]:
     target = metrics.gait_name(len(s.phi_final) + 1).capitalize()
     strict = f"within {metrics.STRICT_TOLERANCE} rad to the end"
     share = None if s.fmu_share_of_wall_time is None else 100.0 * s.fmu_share_of_wall_time
+    percent = {leg: None if part is None else 100.0 * part for leg, part in s.slip_share.items()}
     steadier = "1/std roll + 1/std pitch; larger is steadier: 80 is 1.4° of sway, 200 is 0.6°"
     evener = "1 / spread of the share of stance; larger is more even: 10 is a spread of 0.1"
     return [
@@ -91,10 +92,16 @@ def rows(s: Summary) -> list[tuple[str, str, str]]:
         ("Final gait", s.gait or DASH, ", ".join(phases)),
         ("Gait stored", number(s.stored_at_s, 2, "s"), "neural couplings first on"),
         ("Stride frequency", number(s.stride_frequency_hz, 2, "Hz"), "cycles of the oscillators"),
+        ("Stride length", number(s.stride_length_mm, 1, "mm"), "along the path"),
         ("Duty factor", _by_leg(s.duty_factor, 2), "share of stance"),
-        ("Touch-downs per stride", number(s.touch_downs_per_stride), "1 is a clean step"),
+        (
+            "Touch-downs per stride",
+            f"{_by_leg(s.touch_downs_by_leg, 2)}; mean {number(s.touch_downs_per_stride)}",
+            "1 is a clean step, more: it scuffs, less: it drags",
+        ),
         ("Foot lift", _by_leg(s.foot_lift_mm, 1), "mm, mid-swing above stance"),
-        ("Slip per stride", _by_leg(s.slip_per_stride_mm, 1), "mm, in stance"),
+        ("Slip per stride", _by_leg(s.slip_per_stride_mm, 1), "mm in stance, rolling included"),
+        ("Slip share", _by_leg(percent, 0), "% of the stride length"),
         ("Balance", number(s.balance, 1, "1/rad"), steadier),
         ("Coordination", number(s.coordination, 1), evener),
         ("Cost of transport", number(s.cost_of_transport), "energy / (m g path); less is better"),

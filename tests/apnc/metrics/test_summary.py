@@ -73,14 +73,17 @@ def test_a_known_walk() -> None:
     assert s.turned_deg == pytest.approx(0.0)
     assert s.distance_m == pytest.approx(0.08 * (45.0 - 1 / RATE))
     assert s.stride_frequency_hz == pytest.approx(1.5)
+    assert s.stride_length_mm == pytest.approx(80.0 / 1.5)
     assert tuple(s.duty_factor) == tuple(s.foot_lift_mm) == tuple(s.slip_per_stride_mm) == QUADRUPED
     # A half-sine load is above a tenth of its peak for 1 - 2 asin(0.1) / pi of the contact.
     contact = 0.6 * (1 - 2 * np.arcsin(0.1) / PI)
     assert list(s.duty_factor.values()) == pytest.approx([contact] * 4, abs=0.03)
     assert s.duty_factor_mean == pytest.approx(np.mean(list(s.duty_factor.values())))
     assert s.touch_downs_per_stride == pytest.approx(1.0, abs=0.02)
+    assert list(s.touch_downs_by_leg) == list(s.slip_share) == list(QUADRUPED)
     assert list(s.foot_lift_mm.values()) == pytest.approx([15.0] * 4, abs=0.1)
     assert list(s.slip_per_stride_mm.values()) == pytest.approx([0.0] * 4, abs=1e-6)
+    assert list(s.slip_share.values()) == pytest.approx([0.0] * 4, abs=1e-6)
     assert s.balance == pytest.approx(np.sqrt(2) * (50 + 100), rel=0.01)
     assert s.converged is True and s.gait == "trot"
     assert s.convergence_time_s == s.convergence_time_authors_s == 0.0
@@ -190,9 +193,11 @@ def test_what_is_before_the_touch_moment_counts_for_nothing_else() -> None:
     rpy, feet = walk.plant["rpy"].copy(), walk.plant["foot_position"].copy()
     rpy[flying, :2] += 1.0
     feet[flying] *= 50.0
-    falling = with_channels(walk, o1=o1, o2=o2, rpy=rpy, foot_position=feet)
+    place = walk.plant["position"] * np.where(flying, 50.0, 1.0)[:, None]
+    falling = with_channels(walk, o1=o1, o2=o2, rpy=rpy, foot_position=feet, position=place)
     s, without = summarise(falling), summarise(clean)
     assert s.stride_frequency_hz == pytest.approx(without.stride_frequency_hz)
+    assert s.stride_length_mm == pytest.approx(without.stride_length_mm)
     assert s.balance == pytest.approx(without.balance, rel=0.02)
     for name in ("duty_factor", "foot_lift_mm", "slip_per_stride_mm"):
         expected = list(getattr(without, name).values())
@@ -218,6 +223,7 @@ def test_coordination_is_of_the_worst_leg() -> None:
     share = 2 * (s.duty_factor["RF"] or 0.0)
     assert share == pytest.approx(0.5 * (1 - 2 * np.arcsin(0.1) / PI), abs=0.03)
     assert s.coordination == pytest.approx(2 / share, rel=0.03)
+    assert list(s.touch_downs_by_leg.values()) == pytest.approx([0.5, 1.0, 1.0, 1.0], abs=0.03)
     assert s.touch_downs_per_stride == pytest.approx((0.5 + 3) / 4, abs=0.03)
 
 
@@ -235,6 +241,8 @@ def test_figures_per_leg_belong_to_their_leg() -> None:
     slip = list(s.slip_per_stride_mm.values())
     assert slip[2] == pytest.approx(2 * (slip[1] or 0.0), rel=0.05) and (slip[1] or 0) > 3.0
     assert slip[0] == pytest.approx(0.0, abs=1e-6)
+    stride = 80.0 / 1.4
+    assert list(s.slip_share.values()) == pytest.approx([(way or 0.0) / stride for way in slip])
     begin = metrics.touch_moment(force[..., 2], MASS * 9.81) or 0
     starts = metrics.cycle_starts(*(varied.controller[name][begin:] for name in ("o1", "o2")))
     measured = feet[begin:], metrics.stance(force[..., 2])[begin:], starts
@@ -249,8 +257,11 @@ def test_a_robot_that_stands_has_neither_balance_nor_coordination() -> None:
     s = summarise(walk)
     assert s.path_speed_m_per_s == pytest.approx(0.0, abs=1e-6)
     assert (s.balance, s.coordination, s.cost_of_transport) == (None, None, None)
+    assert s.stride_length_mm is None and s.slip_share == dict.fromkeys(QUADRUPED)
+    assert s.slip_per_stride_mm["RF"] is not None
     slow = summarise(synthetic_record(20.0, speed=0.0051))
     assert slow.balance is not None and slow.cost_of_transport is not None
+    assert slow.stride_length_mm == pytest.approx(5.1 / 1.4)
 
 
 @pytest.mark.parametrize(

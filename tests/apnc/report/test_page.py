@@ -294,6 +294,23 @@ def test_path_speed_and_turn_lead_and_what_is_undefined_is_a_dash() -> None:
     assert "larger is more even" in notes["Coordination"]
 
 
+def test_feet_are_told_one_by_one() -> None:
+    legs = ("RF", "RH", "LF", "LH")
+    feet = replace(
+        GOOD,
+        stride_length_mm=71.24,
+        touch_downs_per_stride=1.26,
+        touch_downs_by_leg=dict(zip(legs, (1.0, 2.0, 1.0, 1.04), strict=True)),
+        slip_share=dict(zip(legs, (0.116, None, 0.0, 0.35), strict=True)),
+    )
+    table = {name: value for name, value, _ in rows(feet)}
+    assert table["Stride length"] == "71.2\xa0mm"
+    assert table["Touch-downs per stride"] == (
+        "RF\xa01.00, RH\xa02.00, LF\xa01.00, LH\xa01.04; mean 1.26"
+    )
+    assert table["Slip share"] == "RF\xa012, RH\xa0–, LF\xa00, LH\xa035"
+
+
 def test_target_gait_has_its_name() -> None:
     six: Summary = summarise(synthetic_record(5.0, TRIPOD))
     assert verdicts(six, 5.0)[1].question == "Did the tripod form?"
