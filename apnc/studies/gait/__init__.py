@@ -1,0 +1,215 @@
+"""How the robot walks, over MI: formation, feet, turn and speed, each beside what is aimed at."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Final
+
+import numpy as np
+
+from apnc import metrics
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
+from apnc.studies.claims import Claim, Finding, Rule, verdict
+from apnc.studies.plots import over_axis
+from apnc.studies.rows import STRICT, Row, cells_in, matching, successes, values
+from apnc.studies.statistics import rate
+from apnc.studies.study import WALK_S, Study
+from apnc.studies.table import markdown, middle
+
+MI_VALUES: Final = (*(round(0.06 + 0.02 * i, 2) for i in range(12)), 0.32, 0.36, 0.40)
+"""MI at which the walk starts and stays."""
+
+CORE: Final = (0.08, 0.28)
+"""First and last MI at which every run must form the gait."""
+
+SETTLED_S: Final = 10.0
+"""Time from which on the feet count: the gait has formed and the couplings are on [s]."""
+
+AXIS: Final = ("mi", "MI [1]")
+LIFT, SLIP, TOUCHES = "lowest_lift_mm", "largest_slip_share", "worst_touch_downs"
+TURNED, LATE_SPEED = "turned_deg", "late_speed_m_per_s"
+
+
+def measure(record: Record) -> Row:
+    """Figures of the worst foot from 10 s on; None for a run that did not get there.
+
+    Returns:
+        ``lowest_lift_mm``: lift in mid-swing of the foot that lifts least [mm];
+        ``largest_slip_share``: slip per stride of the foot that slips most, over the stride [1];
+        ``worst_touch_downs``: touch-downs per stride of the foot that is furthest from one [1].
+    """
+    part = record.time >= SETTLED_S
+    if not record.complete or np.count_nonzero(part) < 2:
+        return dict.fromkeys((LIFT, SLIP, TOUCHES))
+    standing = metrics.stance(record.plant["foot_force"][..., 2])[part]
+    starts = metrics.cycle_starts(record.controller["o1"][part], record.controller["o2"][part])
+    feet = record.plant["foot_position"][part]
+    frequency = metrics.stride_frequency(starts, 1.0 / record.experiment.rate)
+    way = metrics.path_length(record.plant["position"][part])
+    speed = metrics.mean_speed(record.time[part], way)
+    moves = speed is not None and speed >= metrics.MIN_SPEED
+    stride = speed / frequency if moves and speed and frequency else None
+    lifts = _known(metrics.foot_lifts(feet, standing, starts))
+    slips = _known(metrics.slips(feet, standing, starts))
+    touches = _known(metrics.touch_downs_per_stride(standing, starts))
+    # a foot that never stands has no lift, one that stands for ever no stride: neither walks
+    every = len(lifts) == len(slips) == len(touches) == len(record.legs)
+    if not every or stride is None:
+        return dict.fromkeys((LIFT, SLIP, TOUCHES))
+    return {
+        LIFT: 1000.0 * min(lifts),
+        SLIP: max(slips) / stride,
+        TOUCHES: max(touches, key=lambda count: abs(count - 1.0)),
+    }
+
+
+def _known(figures: Sequence[float | None]) -> list[float]:
+    return [figure for figure in figures if figure is not None]
+
+
+def forms(low: float, high: float, share: float) -> Rule:
+    """The strict trot forms in a share of the runs at every MI from low to high.
+
+    'Partly' if it does at most of them.
+    """
+
+    def rule(rows: Sequence[Row]) -> Finding:
+        mis = [mi for mi in cells_in(rows, "mi") if low <= mi <= high]
+        rates = {mi: rate(successes(rows, mi=mi)) for mi in mis}
+        reached = sum(found.value >= share for found in rates.values())
+        short = [f"MI {mi:g}: {hit}" for mi, hit in rates.items() if hit.value < share]
+        text = f"at {reached} of {len(mis)} MI" + (f"; {', '.join(short)}" if short else "")
+        return Finding(text, verdict(reached == len(mis) > 0, reached > len(mis) / 2))
+
+    return rule
+
+
+def quickly(limit: float) -> Rule:
+    """The median strict time is at most a limit [s] at every MI of the core."""
+
+    def rule(rows: Sequence[Row]) -> Finding:
+        times = _by_mi(_core(rows), STRICT)
+        medians = {mi: float(np.median(found)) for mi, found in times.items() if found}
+        if not medians:
+            return Finding("no run forms the gait", verdict(False, False))
+        low, high = min(medians.values()), max(medians.values())
+        quick = sum(value <= limit for value in medians.values())
+        longest = max(max(found) for found in times.values() if found)
+        text = f"medians {low:.1f} ... {high:.1f} s, longest run {longest:.1f} s"
+        return Finding(text, verdict(quick == len(times), quick > len(times) / 2))
+
+    return rule
+
+
+def worst(column: str, unit: str, digits: int, scale: float, fits: tuple[float, float]) -> Rule:
+    """The median of a figure of the worst foot is inside its limits at every MI.
+
+    'Partly' if it is at more than half of them. A run without the figure counts as outside.
+    """
+
+    def rule(rows: Sequence[Row]) -> Finding:
+        low, high = fits
+        inside, texts = 0, []
+        cells = cells_in(rows, "mi")
+        for mi in cells:
+            own = matching(rows, mi=mi)
+            found = values(own, column)
+            middle_value = float(np.median(found)) if len(found) > len(own) / 2 else None
+            fit = middle_value is not None and low <= middle_value <= high
+            inside += fit
+            if not fit:
+                shown = "-" if middle_value is None else f"{scale * middle_value:.{digits}f}"
+                texts.append(f"{shown} at {mi:g}")
+        text = f"at {inside} of {len(cells)} MI" + (f"; {unit} {', '.join(texts)}" if texts else "")
+        return Finding(text, verdict(inside == len(cells) > 0, inside > len(cells) / 2))
+
+    return rule
+
+
+def straight(median_limit: float, limit: float) -> Rule:
+    """At every MI the median turn is at most one limit and no run turns beyond the other [deg].
+
+    'Partly' if the median is below its limit at more than half of the MI.
+    """
+
+    def rule(rows: Sequence[Row]) -> Finding:
+        turns = {mi: np.abs(found) for mi, found in _by_mi(rows, TURNED).items() if found}
+        if not turns:
+            return Finding("nothing walked", verdict(False, False))
+        medians = {mi: float(np.median(found)) for mi, found in turns.items()}
+        low = sum(value <= median_limit for value in medians.values())
+        all_low = sum(float(found.max()) <= limit for found in turns.values())
+        text = (
+            f"median at most {median_limit:g} deg at {low} of {len(turns)} MI (largest "
+            f"{max(medians.values()):.0f}), every run at most {limit:g} deg at {all_low} (largest "
+            f"{max(float(found.max()) for found in turns.values()):.0f})"
+        )
+        return Finding(text, verdict(low == all_low == len(turns), low > len(turns) / 2))
+
+    return rule
+
+
+def _core(rows: Sequence[Row]) -> list[Row]:
+    return [row for row in rows if CORE[0] <= row["mi"] <= CORE[1]]
+
+
+def _by_mi(rows: Sequence[Row], column: str) -> dict[float, list[float]]:
+    return {mi: values(rows, column, mi=mi) for mi in cells_in(rows, "mi")}
+
+
+def table(rows: Sequence[Row]) -> str:
+    """A line per MI; a trial that ended with an error counts as a failure."""
+    return markdown(_line(mi, matching(rows, mi=mi)) for mi in cells_in(rows, "mi"))
+
+
+def _line(mi: float, rows: list[Row]) -> dict[str, str]:
+    turns = [abs(value) for value in values(rows, TURNED)]
+    slips = [100.0 * value for value in values(rows, SLIP)]
+    return {
+        "MI": f"{mi:.2f}",
+        "strict trot": f"{sum(successes(rows))}/{len(rows)}",
+        "after [s], median (range)": middle(values(rows, STRICT), 1),
+        "lowest lift of a foot [mm]": middle(values(rows, LIFT), 1),
+        "largest slip of a foot [% of the stride]": middle(slips, 0),
+        "touch-downs of the worst foot": middle(values(rows, TOUCHES), 2),
+        "turn in 45 s [deg]": middle(turns, 0),
+        "speed [m/s]": middle(values(rows, LATE_SPEED), 3),
+        "stride [Hz]": middle(values(rows, "stride_frequency_hz"), 2),
+        "duty factor": middle(values(rows, "duty_factor_mean"), 2),
+        "fell": str(len(matching(rows, fell=True))),
+    }
+
+
+AIMS: Final = (
+    Claim("aim", "strict trot in every run at every MI 0.08 ... 0.28", forms(*CORE, 1.0)),
+    Claim("aim", "within 3 s there, in the median", quickly(3.0)),
+    Claim("aim", "strict trot in nine of ten runs at MI 0.06", forms(0.0, 0.07, 0.9)),
+    Claim("aim", "and at MI 0.32 ... 0.40, started there", forms(0.3, 1.0, 0.9)),
+    Claim("aim", "every foot lifts by at least 6 mm in mid-swing",
+          worst(LIFT, "mm:", 1, 1.0, (6.0, np.inf))),
+    Claim("aim", "no foot slips by more than 12 % of the stride",
+          worst(SLIP, "%:", 0, 100.0, (0.0, 0.12))),
+    Claim("aim", "every foot touches down once in a stride",
+          worst(TOUCHES, "", 2, 1.0, (0.95, 1.05))),
+    Claim("aim", "straight: a turn of at most 15 deg in 45 s in the median, of 30 in any run",
+          straight(15.0, 30.0)),
+)  # fmt: skip
+"""What the robot is built for; not claims of the paper."""
+
+STUDY: Final = Study(
+    "gait",
+    partial(Experiment, duration=WALK_S),
+    {"mi": MI_VALUES},
+    methods=("apnc",),
+    measure=measure,
+    claims=AIMS,
+    figures=lambda rows: [
+        over_axis(rows, AXIS, LIFT, "lowest lift of a foot [mm]"),
+        over_axis(rows, AXIS, SLIP, "largest slip of a foot [strides]"),
+        over_axis(rows, AXIS, TURNED, "turn [deg]"),
+        over_axis(rows, AXIS, LATE_SPEED, "speed [m/s]"),
+    ],
+    table=table,
+)
