@@ -86,6 +86,14 @@ class MujocoTree(Engine):
         q[:], v[:] = position, speed
         return True
 
+    def mass_matrix(self) -> Array:
+        """Mass matrix; see ``Engine``."""
+        mj.mj_forward(self.model, self.data)
+        columns = np.zeros((self.model.nv, self.model.nv))
+        for column, unit in zip(columns, np.eye(self.model.nv), strict=True):
+            mj.mj_mulM(self.model, self.data, column, unit)
+        return columns
+
     def own_contact(self, q: Array, force: Array, load: Array) -> None:
         """Forces of MuJoCo's own contact; see ``Engine``."""
         force[:], load[:] = 0.0, 0.0
