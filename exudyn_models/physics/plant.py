@@ -16,7 +16,7 @@ from exudyn_models.robot.model import Array
 
 
 class ExudynTree(Engine):
-    """The robot as a kinematic tree in its own Exudyn system, integrated by explicit Euler.
+    """The robot as a kinematic tree in its own Exudyn system, integrated by Velocity Verlet.
 
     Attributes:
         mbs, solver: Exudyn's system and its solver.
