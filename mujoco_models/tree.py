@@ -37,7 +37,7 @@ def _with_contact(robot: RobotDescription, text: Callable[[Sequence[Pair]], str]
 
 
 class MujocoTree(Engine):
-    """The robot in MuJoCo, integrated by its semi-implicit Euler.
+    """The robot in MuJoCo, integrated by velocity Verlet as in Exudyn.
 
     Servos, suspension and the compiled contact are generalized forces from outside, the very ones
     that Exudyn gets.
@@ -65,26 +65,39 @@ class MujocoTree(Engine):
             raise PlantError(f"MuJoCo refused the model: {' '.join(str(error).split())}") from None
         model = self.model
         model.opt.gravity[2] = -options.gravity
-        model.opt.integrator = mj.mjtIntegrator.mjINT_EULER
         self.data = mj.MjData(model)
         self.data.qpos[:] = setup.start
+        self._accelerate()
         self._leg_of = {model.geom(foot_of(leg)).id: k for k, leg in enumerate(robot.legs) if own}
 
     def advance(self, end: float, steps: int, q: Array, v: Array) -> bool:
         """Integrate; see ``Engine``."""
-        model, data, acting = self.model, self.data, self._forces.acting
-        position, speed, applied = data.qpos, data.qvel, data.qfrc_applied
-        model.opt.timestep = self._forces.step
+        data, step = self.data, self._forces.step
+        position, speed, acceleration = data.qpos, data.qvel, data.qacc
+        self.model.opt.timestep = step
         for _ in range(steps):
-            applied[:] = acting(position, speed)
-            # mj_step would also look for a motion that broke down, and reset it with a warning
-            mj.mj_forward(model, data)
-            mj.mj_Euler(model, data)
+            speed += 0.5 * step * acceleration
+            position += step * speed
+            self._accelerate()
+            speed += 0.5 * step * acceleration
             if not speed @ speed < WILD**2:  # not a number neither
                 return False
         data.time = end
         q[:], v[:] = position, speed
         return True
+
+    def _accelerate(self) -> None:
+        """Find the accelerations, under the forces at the present coordinates and speeds."""
+        self.data.qfrc_applied[:] = self._forces.acting(self.data.qpos, self.data.qvel)
+        # mj_step would also look for a motion that broke down, and reset it with a warning
+        mj.mj_forward(self.model, self.data)
+
+    def mass_matrix(self) -> Array:
+        """Mass matrix; see ``Engine``."""
+        columns = np.zeros((self.model.nv, self.model.nv))
+        for column, unit in zip(columns, np.eye(self.model.nv), strict=True):
+            mj.mj_mulM(self.model, self.data, column, unit)
+        return columns
 
     def own_contact(self, q: Array, force: Array, load: Array) -> None:
         """Forces of MuJoCo's own contact; see ``Engine``."""

@@ -20,11 +20,11 @@ Rows = tuple[V3, V3, V3]
 
 # Where things lie in the flat array of parameters.
 SERVO = 0  # stiffness, damping, stall torque, no-load speed
-CONTACT = 4  # radius, stiffness, damping, damping depth, friction, friction speed
-HOLD = 10  # on, stiffness and damping of position, of rotation, six coordinates held
-GROUND = 21  # rotation from ground to world, row by row
-TOP = 30  # greatest height of the ground over its plane
-PARAMETERS = 31
+CONTACT = 4  # radius, stiffness, damping, damping depth, friction, friction speed, step / mass
+HOLD = 11  # on, stiffness and damping of position, of rotation, six coordinates held
+GROUND = 22  # rotation from ground to world, row by row
+TOP = 31  # greatest height of the ground over its plane
+PARAMETERS = 32
 
 TIPPED_OVER = 0.5  # cosine of 60 degrees
 UPENDED = 0.174  # cosine of 80 degrees
@@ -127,10 +127,12 @@ def contact_force(contact: Array, normal: V3, depth: float, velocity: V3) -> tup
 
     Normal: max(0, k d + c min(1, d/d_c) d'), so that damping sets in with the depth d instead of
     jumping at first touch (after Hunt and Crossley, 1975), and never pulls. Tangential: Coulomb,
-    proportional to the sliding speed below ``friction_speed``.
+    proportional to the sliding speed below ``friction_speed``, or below the speed from which
+    friction stops the foot within one step, mu F h / m, where that is more.
 
     Args:
-        contact: radius, stiffness k, damping c, damping depth d_c, friction, friction speed.
+        contact: radius, stiffness k, damping c, damping depth d_c, friction mu, friction speed,
+            step h over apparent mass m of a foot.
         normal: of the surface, pointing out of it.
         depth: d [m], above 0.
         velocity: of the foot at the point of contact [m/s], in the frame of ``normal``.
@@ -139,7 +141,7 @@ def contact_force(contact: Array, normal: V3, depth: float, velocity: V3) -> tup
     onset = min(1.0, depth / contact[3])
     press = max(0.0, contact[1] * depth + contact[2] * onset * approach)
     sliding = _add(velocity, _scale(approach, normal))
-    speed = max(sqrt(_dot(sliding, sliding)), contact[5])
+    speed = max(sqrt(_dot(sliding, sliding)), contact[5], contact[4] * press * contact[6])
     return _add(_scale(press, normal), _scale(-contact[4] * press / speed, sliding)), press
 
 

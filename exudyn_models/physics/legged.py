@@ -12,6 +12,7 @@ import numpy as np
 from exudyn_models.channels import PlantError
 from exudyn_models.conditions import Conditions
 from exudyn_models.ground import Plane, Surface
+from exudyn_models.physics.apparent_mass import apparent_mass
 from exudyn_models.physics.coordinates import BASE, JOINT_SIGN
 from exudyn_models.physics.options import COMPILED, PlantOptions
 from exudyn_models.physics.robot_forces import RobotForces
@@ -66,6 +67,9 @@ class Engine(Protocol):
         Returns:
             Whether it could.
         """
+
+    def mass_matrix(self) -> Array:
+        """Mass matrix at the present coordinates, shape (6 + 3 n_legs, 6 + 3 n_legs)."""
 
     def own_contact(self, q: Array, force: Array, load: Array) -> None:
         """What the engine's own contact did to the feet in the last step.
@@ -145,6 +149,9 @@ class LeggedPlant:
         setup = Setup(robot, trunk, self._ground, options, coordinates, self._forces)
         self._engine = self.engine(setup)
         self._q, self._v = coordinates.copy(), np.zeros_like(coordinates)
+        self._forces.foot_mass = apparent_mass(
+            self._forces, coordinates, self._engine.mass_matrix(), self._ground.rotation()[:, :2]
+        )
         self._measure()
 
     def set_conditions(self, conditions: Conditions) -> None:
@@ -227,7 +234,8 @@ class LeggedPlant:
     def _integrate(self, end: float) -> None:
         duration = end - self.time
         steps = max(1, math.ceil(duration / self._options.step - 1e-9))
-        self._forces.step, self.time = duration / steps, end
+        self._forces.set_step(duration / steps)
+        self.time = end
         moved = self._engine.advance(end, steps, self._q, self._v)
         if not moved or not np.isfinite(self._q).all():
             raise PlantError(f"the motion diverged before t = {self.time:.4f} s")

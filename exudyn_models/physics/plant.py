@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
+import numpy as np
+
 from exudyn_models.channels import PlantError
 from exudyn_models.physics.engine import exu
 from exudyn_models.physics.legged import Engine, LeggedPlant, Setup
@@ -14,7 +16,7 @@ from exudyn_models.robot.model import Array
 
 
 class ExudynTree(Engine):
-    """The robot as a kinematic tree in its own Exudyn system, integrated by explicit Euler.
+    """The robot as a kinematic tree in its own Exudyn system, integrated by Velocity Verlet.
 
     Attributes:
         mbs, solver: Exudyn's system and its solver.
@@ -52,6 +54,11 @@ class ExudynTree(Engine):
         data = self.mbs.systemData
         q[:], v[:] = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
         return bool(solved)
+
+    def mass_matrix(self) -> Array:
+        """Mass matrix; see ``Engine``."""
+        self.solver.ComputeMassMatrix(self.mbs)
+        return np.array(self.solver.GetSystemMassMatrix())
 
     def own_contact(self, q: Array, force: Array, load: Array) -> None:
         """Forces of Exudyn's own contact; see ``Engine``."""

@@ -46,7 +46,8 @@ class RobotForces:
     Attributes:
         target: commanded tree coordinates of the joints [rad], shape (3 n_legs,); written by the
             plant.
-        step: length of the integration step [s]; written by the plant.
+        step: length of the integration step [s], see :meth:`set_step`.
+        foot_mass: apparent mass of a foot along the ground [kg]; written by the plant.
         work: what every servo did since the start, |torque times speed| over time [J], shape
             (3 n_legs,).
         geometry: of the legs, see :func:`leg_geometry`.
@@ -69,7 +70,7 @@ class RobotForces:
         servo, contact = robot.servo, robot.contact
         n = len(robot.legs)
         self.target = target.copy()
-        self.step = 0.0
+        self.step, self.foot_mass = 0.0, math.inf
         self.work = np.zeros(3 * n)
         parameters = np.zeros(forces.PARAMETERS)
         parameters[forces.SERVO : forces.CONTACT] = (
@@ -85,10 +86,12 @@ class RobotForces:
             contact.damping_depth,
             contact.friction,
             contact.friction_speed,
+            0.0,
         )
         parameters[forces.HOLD + 1 : forces.HOLD + 5] = HOLD_GAINS
         parameters[forces.GROUND : forces.TOP] = ground.rotation().ravel()
         parameters[forces.TOP] = ground.top
+        self._stopping = parameters[forces.HOLD - 1 : forces.HOLD]
         self._hold = parameters[forces.HOLD : forces.GROUND]
         self.geometry = leg_geometry(robot)
         numbers = ground.numbers(contact.foot_radius)
@@ -109,6 +112,10 @@ class RobotForces:
         self._measured = np.zeros(size + 10 * n)
         self.result = self._measured[size:]
         self.torque, self.foot, self.force, self.load = np.split(self.result, [3 * n, 6 * n, 9 * n])
+
+    def set_step(self, step: float) -> None:
+        """Integrate with another step [s] from now on."""
+        self.step, self._stopping[0] = step, step / self.foot_mass
 
     def hold(self, pose: Array | None) -> None:
         """Hold the base at a pose (its six coordinates), or let it go."""

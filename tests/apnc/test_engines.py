@@ -113,13 +113,12 @@ def test_the_trot_forms_in_mujoco_as_in_exudyn(contact: str) -> None:
 
 
 @needs_mujoco
-def test_with_the_same_commands_the_engines_meet_at_first_order_in_the_step() -> None:
-    from apnc.studies.engines.replay import distances, order_of  # noqa: PLC0415
+def test_with_the_same_commands_the_engines_stay_together_up_to_rounding() -> None:
+    from apnc.studies.engines.replay import distances, path_of  # noqa: PLC0415
 
-    steps = (64, 128, 256)
-    found = distances(steps)
-    assert found[0] < 1e-4  # of 80 mm that it walks
-    assert order_of(steps, found) == pytest.approx(1.0, abs=0.05)  # a thousandth of the force shows
+    assert path_of("mujoco", 1.0)[-1, 0] > 0.05
+    # also says that Exudyn's Velocity Verlet, "under development", is the one in the textbook
+    assert distances(1.0).max() < 1e-11
 
 
 def test_the_study_runs_every_engine_and_shows_them_side_by_side() -> None:
@@ -151,13 +150,13 @@ def test_cost_at_equal_error_goes_along_the_powers_of_the_step() -> None:
     from apnc.studies.engines.speed import Cost, at_equal_error  # noqa: PLC0415
 
     # twice the error at half the time per step: at equal error the same time
-    costs = {("exudyn", n): Cost(1.0 / n, 2.0 * n) for n in (16, 32, 64)}
-    costs |= {("mujoco", n): Cost(2.0 / n, 1.0 * n) for n in (16, 32, 64)}
+    costs = {("exudyn", n): Cost(1.0 / n, 2.0 * n) for n in (8, 16, 32)}
+    costs |= {("mujoco", n): Cost(2.0 / n, 1.0 * n) for n in (8, 16, 32)}
     assert at_equal_error(costs, "exudyn") == pytest.approx(1.0)
     assert at_equal_error(costs, "mujoco") == pytest.approx(1.0)
-    costs |= {("mujoco", n): Cost(8.0 / n, 1.0 * n) for n in (16, 32, 64)}  # beyond the measured
+    costs |= {("mujoco", n): Cost(8.0 / n, 1.0 * n) for n in (8, 16, 32)}  # beyond the measured
     assert at_equal_error(costs, "mujoco") == pytest.approx(4.0)
-    bent = zip((16, 32, 64), (0.02, 0.01, 0.001), strict=True)
+    bent = zip((8, 16, 32), (0.02, 0.01, 0.001), strict=True)
     costs |= {("mujoco", n): Cost(error, 1.0 * n) for n, error in bent}
-    wanted, nearest = costs["exudyn", 32].force_error, 0.02  # by the two coarsest: first order
-    assert at_equal_error(costs, "mujoco") == pytest.approx(16 * nearest / wanted / 64)
+    wanted, nearest = costs["exudyn", 16].force_error, 0.02  # by the two coarsest: first order
+    assert at_equal_error(costs, "mujoco") == pytest.approx(8 * nearest / wanted / 32)

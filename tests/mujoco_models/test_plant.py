@@ -34,13 +34,9 @@ def mass_matrices(robot: RobotDescription, q: np.ndarray) -> tuple[np.ndarray, n
     ours = Plant(robot, 3, conditions=conditions)._engine
     ours.data.qpos[:] = q
     mj.mj_forward(ours.model, ours.data)
-    columns = np.zeros((q.size, q.size))
-    for k, unit in enumerate(np.eye(q.size)):
-        mj.mj_mulM(ours.model, ours.data, columns[k], unit)
     theirs = ExudynPlant(robot, 3, conditions=conditions)._engine
     theirs.mbs.systemData.SetODE2Coordinates(q)
-    theirs.solver.ComputeMassMatrix(theirs.mbs)
-    return columns, np.array(theirs.solver.GetSystemMassMatrix())
+    return ours.mass_matrix(), theirs.mass_matrix()
 
 
 @pytest.mark.parametrize("robot", ROBOTS, ids=lambda robot: robot.name)

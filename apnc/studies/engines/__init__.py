@@ -62,7 +62,7 @@ def _line(mi: float, engine: str, rows: list[Row]) -> dict[str, str]:
 
 
 def scenes() -> list[Figure]:
-    """The replay over the step, and one walk in each engine."""
+    """The replay over time, and one walk in each engine."""
     records = {name: simulate(experiment("apnc", 1, name, SHOWN_MI)) for name in ENGINES}
     return [figures.walks(records), figures.replay()]
 

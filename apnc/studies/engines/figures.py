@@ -1,4 +1,4 @@
-"""Engines beside each other over MI, the replay over the step, and one walk in each."""
+"""Engines beside each other over MI, the replay over time, and one walk in each."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import line
 from apnc.studies.contact.measure import TICK
-from apnc.studies.engines.replay import STEPS, distances, order_of
+from apnc.studies.engines.replay import distances
 from apnc.studies.plots import spread
 from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
 
@@ -35,6 +35,9 @@ COLUMNS: Final = {
 
 SHOWN: Final = 15.0
 """How much of a walk is drawn over time [s]."""
+
+LEAST: Final = 1e-17
+"""Distance that is drawn for none at all [m]."""
 
 HALF_TURNS: Final = {"tickvals": [0.0, np.pi], "ticktext": ["0", "π"]}
 
@@ -64,22 +67,17 @@ def _figure(rows: Sequence[Row], column: str, title: str) -> Figure:
 
 
 def replay() -> Figure:
-    """Distance between the engines after a second of the same commands, over the step."""
-    found = 1e3 * distances()
-    step = 1e3 * TICK / np.array(STEPS)
-    order = order_of(STEPS, found)
-    measured = line(found, "measured", theme.BLUE) | {"mode": "lines+markers"}
-    first = line(found[-1] * step / step[-1], "first order", theme.GREY, dash="dash")
-    data = [trace | {"x": float32(step)} for trace in (first, measured)]
+    """Distance between the engines over time, under the same commands."""
+    found = np.maximum(distances(), LEAST)
+    x = {"x": float32(TICK * np.arange(1, len(found) + 1))}
     layout = theme.layout(
         340,
-        xaxis=theme.axis("step [ms]", type="log"),
-        yaxis=theme.axis("distance after 1 s [mm]", type="log"),
-        hovermode="closest",
+        xaxis=theme.axis("time [s]"),
+        yaxis=theme.axis("distance [m]", type="log", exponentformat="power"),
     )
-    note = f"Trot on fixed phases, the same commands in both engines. Order {order:.2f}."
-    title = "From one engine to the other"
-    return Figure("engines-replay", title, note, data, layout, over_time=False)
+    note = "Trot on fixed phases, the same commands in both engines."
+    data = [line(found, "measured", theme.BLUE) | x]
+    return Figure("engines-replay", "From one engine to the other", note, data, layout)
 
 
 def walks(records: Mapping[str, Record]) -> Figure:

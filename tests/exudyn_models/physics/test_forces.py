@@ -10,13 +10,14 @@ from exudyn_models.ground import Ground, Kerb, Plane, Surface, Waves
 from exudyn_models.ground.obstacles import TILE
 from exudyn_models.physics.coordinates import BASE
 from exudyn_models.physics.forces import contact_force
+from exudyn_models.physics.plant import Plant
 from exudyn_models.physics.robot_forces import RobotForces
 from exudyn_models.robot import load_robot
 
 ROBOT = load_robot("lilibot")
 UP = (0.0, 0.0, 1.0)
-# radius, stiffness, damping, damping depth, friction, friction speed
-CONTACT = np.array([0.012, 20000.0, 400.0, 2e-4, 0.5, 0.03])
+# radius, stiffness, damping, damping depth, friction, friction speed, step over mass
+CONTACT = np.array([0.012, 20000.0, 400.0, 2e-4, 0.5, 0.03, 0.0])
 
 
 @pytest.mark.parametrize(
@@ -41,6 +42,30 @@ def test_friction_is_regularised_coulomb_against_the_motion(speed: float, share:
     velocity = (0.6 * speed, -0.8 * speed, 0.0)
     force, press = contact_force(CONTACT, UP, 1e-3, velocity)
     np.testing.assert_allclose(force[:2], 0.5 * press * share * np.array([-0.6, 0.8]), atol=1e-12)
+
+
+@pytest.mark.parametrize(("depth", "speed"), [(1e-3, 0.03), (3e-3, 0.03), (3e-3, 0.06)])
+def test_friction_does_not_turn_a_foot_round_within_a_step(depth: float, speed: float) -> None:
+    step, mass = 1e-3, 0.5
+    contact = CONTACT.copy()
+    contact[6] = step / mass
+    force, press = contact_force(contact, UP, depth, (speed, 0.0, 0.0))
+    sticking = 0.5 * press * step / mass  # the speed that friction takes away in a step
+    assert force[0] == pytest.approx(-mass / step * min(sticking, speed), rel=1e-12)
+
+
+def test_the_apparent_mass_of_a_foot_on_a_heavy_trunk_is_its_rotors_over_their_levers() -> None:
+    light = replace(ROBOT.legs[0].tibia, mass=1e-9, size=(1e-3, 1e-3, 1e-3))
+    legs = tuple(replace(leg, hip=light, femur=light, tibia=light) for leg in ROBOT.legs)
+    trunk = replace(ROBOT.trunk, body=replace(ROBOT.trunk.body, mass=1e9, size=(9.0, 9.0, 9.0)))
+    robot = replace(ROBOT, legs=legs, trunk=trunk)
+    leg, ground = robot.legs[0], Plane(slope=0.3)
+    knee = leg.tibia_length * math.cos(leg.tibia_angle - leg.femur_angle)
+    hip = knee + leg.femur_length * math.cos(leg.femur_angle)
+    abduction = hip - leg.hip_offset[2]
+    most = max(abduction**2, hip**2 + knee**2)
+    found = Plant(robot, ground=ground)._forces.foot_mass
+    assert found == pytest.approx(robot.servo.reflected_inertia / most, rel=1e-4)
 
 
 def bent(seed: int) -> tuple[np.ndarray, np.ndarray]:

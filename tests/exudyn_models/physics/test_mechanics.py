@@ -18,14 +18,9 @@ ROBOT = load_robot("lilibot")
 ZERO = np.zeros(4)
 
 
-def mass_matrix(plant: Plant) -> np.ndarray:
-    plant._engine.solver.ComputeMassMatrix(plant._engine.mbs)
-    return np.array(plant._engine.solver.GetSystemMassMatrix())
-
-
 def energy(plant: Plant, robot: RobotDescription, gravity: float) -> float:
     """Kinetic, potential and spring energy of joints and feet [J]."""
-    m, q, v = mass_matrix(plant), plant._q, plant._v
+    m, q, v = plant._engine.mass_matrix(), plant._q, plant._v
     kinetic = v @ m @ v / 2.0
     # A pitch rate moves the centre of mass along the heading by its height over the base.
     height = q[2] + m[0, 4] / (plant.mass * math.cos(q[3]))
@@ -36,24 +31,23 @@ def energy(plant: Plant, robot: RobotDescription, gravity: float) -> float:
     return float(kinetic + plant.mass * gravity * height + springs / 2.0)
 
 
-def test_without_losses_energy_is_conserved_to_the_order_of_the_integrator() -> None:
+def test_without_losses_energy_is_conserved() -> None:
     robot = replace(
         ROBOT,
         servo=replace(ROBOT.servo, damping=0.0, stall_torque=1e6, no_load_speed=1e9),
         contact=replace(ROBOT.contact, damping=0.0, friction=0.0),
     )
-    errors = []
-    for step in (1e-4, 5e-5):
+    drifts = []
+    for step in (PlantOptions().step, PlantOptions().step / 2):
         plant = Plant(robot, options=PlantOptions(step=step, clearance=0.01))
         start = energy(plant, robot, GRAVITY)
-        for _ in range(12):
+        for _ in range(120):
             plant.advance(ZERO, ZERO, 0.025)
-            drift = energy(plant, robot, GRAVITY) - start
-        errors.append(drift)
-    # Falling by 1 cm puts 0.25 J into the springs; explicit Euler gains in proportion to the step.
-    assert errors[0] < 0.08
-    assert errors[0] / errors[1] == pytest.approx(2.0, abs=0.25)
-    assert abs(2.0 * errors[1] - errors[0]) < 0.01
+        drifts.append(energy(plant, robot, GRAVITY) - start)
+    # Falling by 1 cm puts 0.25 J into the springs. Explicit Euler gains 92 J in these three
+    # seconds, and 8 J with half the step; what is left here comes from the Coriolis terms.
+    assert abs(drifts[0]) < 0.01 * 0.25
+    assert abs(drifts[1]) < 0.6 * abs(drifts[0])
 
 
 def test_damping_and_friction_take_energy_out() -> None:
@@ -79,15 +73,16 @@ def momentum_error(step: float) -> float:
             force = plant.sample()["foot_force"].sum(axis=0)
             impulse += (force - [0.0, 0.0, plant.mass * GRAVITY]) * (TICK / steps)
             plant.advance(hip, knee, TICK / steps)
-        momentum = (mass_matrix(plant) @ plant._v)[:3]
+        momentum = (plant._engine.mass_matrix() @ plant._v)[:3]
         worst = max(worst, float(np.abs(momentum - impulse).max()))
     return worst
 
 
 def test_momentum_changes_by_the_forces_on_the_feet_and_weight() -> None:
-    # Recorded foot forces must be all there is; what is left is of the order of the step.
+    # Recorded foot forces must be all there is. They are those of the speed at their time, and
+    # those that act of the speed half a step before: what is left is of the order of the step.
     coarse, fine = momentum_error(TICK / 32), momentum_error(TICK / 128)
-    assert coarse < 0.02
+    assert coarse < 0.003 * ROBOT.weight
     assert fine < 0.3 * coarse
 
 

@@ -84,15 +84,6 @@ def test_the_load_arrives_late_and_smoothed() -> None:
         np.testing.assert_allclose(now, 0.4 * before + 0.6 * late, atol=2e-3)
 
 
-def test_free_fall() -> None:
-    plant = Plant(ROBOT, options=PlantOptions(clearance=1.0, step=2e-5))
-    start = plant.sample()["position"]
-    plant.advance(np.zeros(4), np.zeros(4), 0.3)
-    fallen = start - plant.sample()["position"]
-    np.testing.assert_allclose(fallen, [0.0, 0.0, 9.81 * 0.3**2 / 2], atol=5e-5)
-    assert plant.sample()["velocity"][2] == pytest.approx(-9.81 * 0.3, rel=1e-6)
-
-
 def test_a_dropped_robot_lands_and_stays_on_its_feet() -> None:
     plant = Plant(ROBOT, options=PlantOptions(clearance=0.03))
     for _ in range(120):
@@ -145,8 +136,7 @@ def test_walking_feet_do_not_chatter_stick_to_the_ground_or_leave_the_friction_c
 
 
 def test_chatter_would_be_seen() -> None:
-    stiff = replace(ROBOT, contact=replace(ROBOT.contact, friction_speed=0.002))
-    assert chatter(forces_while_walking(stiff, PlantOptions().step)) > 0.1
+    assert chatter(forces_while_walking(ROBOT, 2.0 * PlantOptions().step)) > 0.1
 
 
 def test_an_open_loop_trot_walks_forward() -> None:
