@@ -6,24 +6,30 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, Final
 
+import numpy as np
+from numpy.typing import NDArray
+
+from apnc.loop.experiment import conditions_of
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
+from apnc.loop.steps import steps_of
 from apnc.report import theme
-from apnc.report.encoding import float32
-from apnc.report.figure import Figure
+from apnc.report.figure import Figure, Trace
 from apnc.report.figures import all_figures
-from apnc.report.panels import Run
+from apnc.report.panels import Run, line, stacked
 from apnc.studies.plots import side_by_side
 from apnc.studies.rows import Row, values
+from apnc.studies.sections import marked
 from apnc.studies.states.timeline import TIMELINE
 from apnc.summary import summarise
+from apnc_core import load
 
 COUPLINGS: Final = {"apnc": "with ANC", "apc": "without ANC"}
 STATES: Final = ("S1", "S2", "S3")
-PANELS: Final = ("cpg", "phi", "gait")
-"""Of the report of a walk: outputs, relative phases and stances."""
+PANELS: Final = ("cpg", "phi", "gait", "gamma", "kappa")
+"""Of the report of a walk: outputs, relative phases, stances, gain of the feedback, couplings."""
 
-_SPANS: Final = (
+_SECTIONS: Final = (
     (TIMELINE.lowered, TIMELINE.broken, "S1"),
     (TIMELINE.broken, TIMELINE.stopped, "S2: RF, LF stuck at 0.9"),
     (TIMELINE.stopped, TIMELINE.restarted, "MI = 0"),
@@ -52,38 +58,67 @@ def scenes() -> list[Figure]:
 
 
 def over_time(record: Record, words: str) -> list[Figure]:
-    """Outputs, relative phases and stances of a run, with the states marked."""
+    """Command and loads, then the ``PANELS`` of a run, with the states marked."""
     run = Run(record, summarise(record))
-    time = {"x": float32(record.time[run.samples.at])}
-    found = []
-    for panel in (panel for panel in all_figures(run) if panel.key in PANELS):
-        layout = panel.layout | {
-            "height": panel.layout["height"] + 30,
-            "margin": panel.layout["margin"] | {"t": panel.layout["margin"]["t"] + 30},
-            "xaxis": panel.layout["xaxis"] | {"range": [0.0, TIMELINE.end]},
-            "shapes": [*panel.layout.get("shapes", ()), *map(_band, _SPANS[::2])],
-            "annotations": [*panel.layout.get("annotations", ()), *map(_label, _SPANS)],
-        }
-        found.append(
-            replace(
-                panel,
-                key=f"states-{panel.key}-{record.experiment.method}",
-                title=f"{panel.title}, {words}",
-                data=[time | trace for trace in panel.data],
-                layout=layout,
-                over_time=False,
-            )
+    panels = [_loads(run), *(panel for panel in all_figures(run) if panel.key in PANELS)]
+    return [
+        replace(
+            marked(panel, record.time[run.samples.at], _SECTIONS),
+            key=f"states-{panel.key}-{record.experiment.method}",
+            title=f"{panel.title}, {words}",
         )
+        for panel in panels
+    ]
+
+
+def _loads(run: Run) -> Figure:
+    """MI, and the load of every foot as the circuits get it beside that of the ground."""
+    record = run.record
+    parameters: dict[str, Any] = dict(record.experiment.parameters())
+    weight = parameters["robot_weight"]
+    felt, _ = load.normalise(record.plant["grf"], weight, parameters["F_max"])
+    ground = record.plant["foot_force"][..., 2] * (2.0 / weight)
+    faulty = broken(record)
+    look = {"showlegend": False}
+
+    def lines(i: int, colour: str) -> list[Trace]:
+        sound, stuck = (np.where(mask, felt[:, i], np.nan) for mask in (~faulty.T[i], faulty.T[i]))
+        return [
+            run.line(ground[:, i], "ground", theme.GREY, width=0.8, **look),
+            run.line(sound, "F", colour, width=1.6, **look),
+            run.line(stuck, "F, broken sensor", theme.VERMILLION, width=2.6, **look),
+        ]
+
+    rows = [("MI [1]", [run.line(record.controller["MI"], "MI", theme.INK, **look)])]
+    rows += [
+        (f"<b>{leg}</b> F [1]", lines(i, colour))
+        for i, (leg, colour) in enumerate(run.colours.items())
+    ]
+    note = (
+        "F: load of each foot as the circuits get it, in halves of the weight; thick where the "
+        "sensor is stuck or silent. Grey: vertical force of the ground on the foot in the same "
+        "unit; the rows cut off its peaks."
+    )
+    figure = stacked("loads", "Command and loads", note, rows)
+    for i in range(record.n_legs):
+        figure.layout[f"yaxis{i + 2}"] |= {"range": [-0.08, 1.25]}
+    empty = {"x": [None], "hoverinfo": "skip"}
+    figure.data.extend(
+        line(np.empty(0), name, colour, width=width) | empty | {"y": [None]}
+        for name, colour, width in (
+            ("F", theme.INK, 1.6),
+            ("F of a broken sensor", theme.VERMILLION, 2.6),
+            ("force of the ground", theme.GREY, 0.8),
+        )
+    )
+    return figure
+
+
+def broken(record: Record) -> NDArray[np.bool_]:
+    """When which sensor is stuck or silent, shape (T, n)."""
+    found = np.zeros((len(record), record.n_legs), dtype=np.bool_)
+    for start, entry in steps_of(record.experiment.conditions):
+        conditions = conditions_of(entry)
+        legs = {*conditions.stuck, *conditions.silent(record.legs)}
+        found[record.time >= start - 1e-9] = [leg in legs for leg in record.legs]
     return found
-
-
-def _band(span: tuple[float, float, str]) -> dict[str, Any]:
-    begin, end, _ = span
-    place = {"yref": "paper", "x0": begin, "x1": end, "y0": 0, "y1": 1, "layer": "below"}
-    return {"type": "rect", "fillcolor": theme.BAND, "line": {"width": 0}} | place
-
-
-def _label(span: tuple[float, float, str]) -> dict[str, Any]:
-    begin, end, text = span
-    place = {"x": (begin + end) / 2, "y": 1.0, "yref": "paper", "yanchor": "bottom"}
-    return {"text": text, "showarrow": False, "yshift": 24} | place  # over the legend

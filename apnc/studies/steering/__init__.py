@@ -7,32 +7,17 @@ from typing import Final
 
 import numpy as np
 
-from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
-from apnc.loop.steps import Steps, steps_of
-from apnc.report.figure import Figure
+from apnc.loop.steps import steps_of
 from apnc.studies.claims import NO, Claim, Finding, verdict
-from apnc.studies.plots import side_by_side
-from apnc.studies.rows import Row, matching, values
+from apnc.studies.rows import Row, values
 from apnc.studies.statistics import median
-from apnc.studies.study import COURSE_MI, Study
-
-SPEEDS: Final[Steps[float]] = ((0.0, COURSE_MI), (25.0, 0.4), (40.0, COURSE_MI))
-"""Start [s] and MI of every section of the course of Fig. 13."""
-
-TURNS: Final[Steps[float]] = ((0.0, 0.0), (20.0, -1.0), (35.0, 1.0), (50.0, 0.0))
-"""Start [s] and steering of every section of the course of Fig. 14; positive turns left."""
+from apnc.studies.steering.course import SPEED, YAW_RATE, experiment
+from apnc.studies.steering.figures import figures, scenes
+from apnc.studies.study import Study
 
 SETTLING: Final = 5.0
 """Time from the start of a section that does not count: the robot follows a new command [s]."""
-
-SPEED, YAW_RATE = "speed_section", "yaw_rate_section"
-
-
-def experiment(method: str, seed: int, course: str) -> Experiment:
-    """A walk along a course."""
-    mi, turn = (SPEEDS, 0.0) if course == "speeds" else (COURSE_MI, TURNS)
-    return Experiment(method=method, seed=seed, mi=mi, turn=turn, duration=60.0)
 
 
 def measure(record: Record) -> Row:
@@ -76,23 +61,6 @@ def turns(rows: Sequence[Row]) -> Finding:
     return Finding(text, verdict(right.high < 0.0 < left.low, right.value < left.value))
 
 
-def figures(rows: Sequence[Row]) -> list[Figure]:
-    """Speed over the sections of the one course, yaw rate over those of the other."""
-    mis = [f"MI {mi:g}, section {i}" for i, (_, mi) in enumerate(SPEEDS, start=1)]
-    ways = ["straight", "right", "left", "straight again"]
-    return [
-        side_by_side(f"steering-{course}", title, note, unit, {
-            name: values(rows, f"{column}_{i}", course=course)
-            for i, name in enumerate(names, start=1)
-        })
-        for course, title, note, unit, column, names in (
-            ("speeds", "Speed", "MI stepped up and down.", "speed [m/s]", SPEED, mis),
-            ("turns", "Yaw rate", "Positive turns left.", "yaw rate [rad/s]", YAW_RATE, ways),
-        )
-        if matching(rows, course=course)
-    ]  # fmt: skip
-
-
 CLAIMS: Final = (
     Claim("3.3, Fig. 13", "MI 0.15, 0.4, 0.15: from about 0.08 to 0.16 m/s and back", speed_steps),
     Claim("3.3, Fig. 14", "steeper slopes on one side turn the robot to the other", turns),
@@ -106,4 +74,5 @@ STUDY: Final = Study(
     measure=measure,
     claims=CLAIMS,
     figures=figures,
+    scenes=scenes,
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from records import FOOT_RADIUS, QUADRUPED, synthetic_record
+from traces import axis_of, numbers
 
 from apnc.loop.record import Record
 from apnc.report import figures, theme
@@ -54,18 +54,8 @@ def on(ground: Surface, record: Record = RECORD) -> Record:
     return replace(record, experiment=replace(record.experiment, ground=ground))
 
 
-def numbers(packed: Any) -> Array:
-    assert packed["dtype"] == "f4"
-    return np.frombuffer(base64.b64decode(packed["bdata"]), dtype="<f4").astype(np.float64)
-
-
 def y(trace: dict[str, Any]) -> Array:
     return numbers(trace["y"])
-
-
-def axis_of(figure: Figure, trace: dict[str, Any]) -> str:
-    title: str = figure.layout[trace.get("yaxis", "y").replace("y", "yaxis")]["title"]["text"]
-    return title
 
 
 def lines(figure: Figure) -> list[dict[str, Any]]:

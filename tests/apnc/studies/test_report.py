@@ -6,13 +6,11 @@ from pathlib import Path
 
 import pytest
 from browser import console_lines, look, needs_browser
-from records import synthetic_record
 
 import apnc_core
 from apnc.studies import engine, report
 from apnc.studies.engine import grid_of
 from apnc.studies.rows import AUTHORS, STRICT, Row
-from apnc.studies.states.figures import over_time
 from apnc.studies.study import Trial
 
 
@@ -115,25 +113,6 @@ def test_scenes_are_drawn_when_all_is_there(
         assert asked == [True]
     finally:
         object.__setattr__(study, "scenes", lambda: [])
-
-
-def test_a_run_through_the_states_is_shown_over_time() -> None:
-    figures = over_time(synthetic_record(34.0), "with ANC")
-    assert {figure.key for figure in figures} == {
-        "states-cpg-apnc",
-        "states-phi-apnc",
-        "states-gait-apnc",
-    }
-    for figure in figures:
-        assert not figure.over_time and all("x" in trace for trace in figure.data)
-        assert figure.title.endswith(", with ANC")
-        labels = [(note["text"], note["x"]) for note in figure.layout["annotations"]]
-        assert labels == [
-            ("S1", 7.85),
-            ("S2: RF, LF stuck at 0.9", 17.0),
-            ("MI = 0", 22.0),
-            ("S3: no feedback", 29.0),
-        ]
 
 
 @needs_browser

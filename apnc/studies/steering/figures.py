@@ -1,0 +1,151 @@
+"""Speed and yaw rate per section, and one run along each course over time (Fig. 13, 14)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+
+from apnc import metrics
+from apnc.loop.record import Record
+from apnc.loop.simulate import simulate
+from apnc.loop.steps import steps_of
+from apnc.report import theme
+from apnc.report.encoding import float32
+from apnc.report.figure import Figure, Trace
+from apnc.report.panels import Array, Run, line, stacked
+from apnc.studies.plots import COLOURS, side_by_side
+from apnc.studies.rows import Row, matching, values
+from apnc.studies.sections import Section, marked
+from apnc.studies.steering.course import SPEED, SPEEDS, YAW_RATE, experiment
+from apnc.summary import summarise
+
+WAYS: Final = ("straight", "right", "left", "straight again")
+"""What the robot is told to do in each section of the course of turns."""
+
+
+def figures(rows: Sequence[Row]) -> list[Figure]:
+    """Speed over the sections of the one course, yaw rate over those of the other."""
+    mis = [f"MI {mi:g}, section {i}" for i, (_, mi) in enumerate(SPEEDS, start=1)]
+    return [
+        side_by_side(f"steering-{course}", title, note, unit, {
+            name: values(rows, f"{column}_{i}", course=course)
+            for i, name in enumerate(names, start=1)
+        })
+        for course, title, note, unit, column, names in (
+            ("speeds", "Speed", "MI stepped up and down.", "speed [m/s]", SPEED, mis),
+            ("turns", "Yaw rate", "Positive turns left.", "yaw rate [rad/s]", YAW_RATE, WAYS),
+        )
+        if matching(rows, course=course)
+    ]  # fmt: skip
+
+
+def scenes() -> list[Figure]:
+    """The run of seed 0 along each course."""
+    speeds, turns = (simulate(experiment("apnc", 0, course)) for course in ("speeds", "turns"))
+    return [speeds_over_time(speeds), turns_over_time(turns), path(turns)]
+
+
+def speeds_over_time(record: Record) -> Figure:
+    """MI, speed, way and stride frequency over the course of speeds."""
+    run, plant, time = Run(record, summarise(record)), record.plant, record.time
+    (velocity_x, velocity_y, _), yaw = plant["velocity"].T, plant["rpy"][:, 2]
+    ahead = velocity_x * np.cos(yaw) + velocity_y * np.sin(yaw)
+    slow = metrics.smoothed_speed(time, plant["position"], yaw)
+    steps = np.diff(metrics.smooth(plant["position"][:, :2]), axis=0)
+    way = np.append(0.0, np.cumsum(np.linalg.norm(steps, axis=1)))
+    rows = [
+        ("MI [1]", [_command(run, record.controller["MI"])]),
+        ("speed [m/s]", [
+            run.line(ahead, "at every moment", theme.SKY, width=0.7),
+            run.line(slow, "smoothed over 1.5 s", theme.BLUE, width=2.2),
+        ]),
+        ("path [m]", [run.line(way, "path", theme.INK, showlegend=False)]),
+        ("stride [Hz]", _frequencies(run)),
+    ]  # fmt: skip
+    note = (
+        "Speed along the present heading; length of the smoothed path; stride frequency of each "
+        "leg, from the cycles of its oscillator. Seed 0."
+    )
+    figure = stacked("steering-speeds-time", "Course of speeds", note, rows)
+    figure.layout["yaxis4"] |= {"rangemode": "tozero"}
+    words = [f"MI {mi:g}" for _, mi in steps_of(record.experiment.mi)]
+    return marked(figure, time[run.samples.at], _sections(record, record.experiment.mi, words))
+
+
+def turns_over_time(record: Record) -> Figure:
+    """Steering, hip commands of the front legs, yaw and yaw rate over the course of turns."""
+    run, time = Run(record, summarise(record)), record.time
+    yaw = np.unwrap(record.plant["rpy"][:, 2])
+    hips = np.degrees(record.controller["theta_hip"]).T
+    front = {leg: hip for leg, hip in zip(record.legs, hips, strict=True) if leg.endswith("F")}
+    rows = [
+        ("turn [1]", [_command(run, record.controller["turn"])]),
+        *(
+            (f"hip {leg} [°]", [run.line(hip, leg, run.colours[leg], width=0.9)])
+            for leg, hip in front.items()
+        ),
+        ("yaw [°]", [run.line(np.degrees(yaw), "yaw", theme.INK, showlegend=False)]),
+        ("rate [rad/s]", [
+            run.line(np.gradient(metrics.smooth(yaw), time), "rate", theme.BLUE, showlegend=False)
+        ]),
+    ]  # fmt: skip
+    note = (
+        "Positive turns left: larger commands to the right legs, smaller ones to the left. Rate: "
+        "of the yaw, smoothed over 1.5 s. Seed 0."
+    )
+    figure = stacked("steering-turns-time", "Course of turns", note, rows)
+    low, high = np.min(list(front.values())), np.max(list(front.values()))
+    for row in range(2, 2 + len(front)):
+        figure.layout[f"yaxis{row}"] |= {"range": [low - 1.0, high + 1.0]}
+    return marked(figure, time[run.samples.at], _sections(record, record.experiment.turn, WAYS))
+
+
+def path(record: Record) -> Figure:
+    """Path of the trunk from above along the course of turns, a colour per section."""
+    at = metrics.smooth(record.plant["position"][:, :2])
+    traces: list[Trace] = []
+    sections = _sections(record, record.experiment.turn, WAYS)
+    for i, (begin, end, name) in enumerate(sections):
+        inside = slice(*np.searchsorted(record.time, [begin - 1e-9, end + 1e-9]))
+        x, y = at[inside].T
+        text = f"{name}, {begin:g} to {end:g} s"
+        traces.append(line(y, text, COLOURS[i % len(COLOURS)], width=2.6) | {"x": float32(x)})
+    ends = (("start", "circle-open", at[:1].T), ("end", "circle", at[-1:].T))
+    for name, symbol, (x, y) in ends:
+        mark = {"size": 11, "color": theme.INK, "symbol": symbol, "line": {"width": 2}}
+        place = {"x": x.tolist(), "y": y.tolist(), "marker": mark}
+        traces.append({"type": "scatter", "mode": "markers", "name": name, **place})
+    equal = theme.axis("y [m]", scaleanchor="x", scaleratio=1)
+    layout = theme.layout(460, xaxis=theme.axis("x [m]"), yaxis=equal, hovermode="closest")
+    note = "Seen from above, equal scales; smoothed over 1.5 s. The robot starts along x. Seed 0."
+    return Figure("steering-path", "Path of the course of turns", note, traces, layout, False)
+
+
+def _sections(record: Record, command: object, names: Sequence[str]) -> list[Section]:
+    starts = [start for start, _ in steps_of(command)]
+    return [
+        (*span, name)
+        for span, name in zip(pairwise([*starts, record.experiment.duration]), names, strict=True)
+    ]
+
+
+def _command(run: Run, values: Array) -> Trace:
+    trace = run.line(values, "command", theme.INK, width=2.0, showlegend=False)
+    trace["line"]["shape"] = "hv"
+    return trace
+
+
+def _frequencies(run: Run) -> list[Trace]:
+    """Stride frequency of every leg, a point per cycle of its oscillator, drawn at its middle."""
+    record, c = run.record, run.record.controller
+    traces = []
+    for starts, (leg, colour) in zip(
+        metrics.cycle_starts(c["o1"], c["o2"]), run.colours.items(), strict=True
+    ):
+        middles = (starts[:-1] + starts[1:]) / 2 / record.experiment.rate
+        rate = record.experiment.rate / np.diff(starts)
+        traces.append(line(rate, leg, colour, width=1.2) | {"x": float32(middles)})
+    return traces
