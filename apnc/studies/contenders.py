@@ -51,21 +51,22 @@ def _authors_gain(gain: float) -> Settings:
 
 
 _PRINTED: Final = preset("paper")
+_VARIED: Final = {"gains": NONE}
 _IN_CONDITIONS: Final = dict.fromkeys(("conditions", "damage", "states"), _authors_gain(0.3))
 
 CONTENDERS: Final[Mapping[str, Contender]] = {
     "apnc": Contender("apnc", "APNC", theme.BLUE, "circle"),
     "apc": Contender("apc", "APC alone", theme.SKY, "circle-open"),
     "tegotae": Contender(
-        "tegotae", "Tegotae (paper)", theme.ORANGE, "diamond-open",
-        _authors_gain(0.03), _IN_CONDITIONS,
+        "tegotae", "Tegotae", theme.ORANGE, "diamond-open",
+        _authors_gain(0.03), _IN_CONDITIONS | _VARIED,
     ),
     "tegotae_best": Contender(
         "tegotae", "Tegotae (best)", theme.VERMILLION, "diamond", {"gamma_tegotae": 0.12},
     ),
     "phase_reset": Contender(
-        "phase_reset", "phase resetting (paper)", theme.GREEN, "triangle-up-open",
-        {"grf_reset": 0.4},
+        "phase_reset", "phase resetting", theme.GREEN, "triangle-up-open",
+        {"grf_reset": 0.4}, _VARIED,
     ),
     "phase_reset_best": Contender(
         "phase_reset", "phase resetting (best)", theme.PURPLE, "triangle-up", {"grf_reset": 0.4},

@@ -134,7 +134,7 @@ def too_strong(rows: Sequence[Row]) -> Finding:
         at_best, at_most = (
             rate([number > 0 for number in values(own, STILL, gain=gain)]) for gain in (good, most)
         )
-        text = f"stopped in {at_most} at {most:g}, in {at_best} at {good or '-'}"
+        text = f"stopped in {at_most} at {most:g}, in {at_best} at {_text(good)}"
         if good in (None, most) or min(at_best.trials, at_most.trials) < MIN_SEEDS:
             return Finding(text, FEW)
         none = at_best.successes == 0
@@ -153,12 +153,16 @@ def too_weak(rows: Sequence[Row], column: str) -> Finding:
         times = [[r.get(column) or r["duration"] for r in part] for part in (weak, best)]
         test = compare(*times)
         shown = (median(values(part, column)).text(1, "s", len(part)) for part in (weak, best))
-        text = f"{next(shown)} at {least:g}, {next(shown)} at {good or '-'}, p = {test.p:.1e}"
+        text = f"{next(shown)} at {least:g}, {next(shown)} at {_text(good)}, p = {test.p:.1e}"
         if good in (None, least) or min(len(part) for part in times) < MIN_SEEDS:
             return Finding(text, FEW)
         return Finding(text, verdict(test.effect > 0 and test.p <= SIGNIFICANT, False))
 
     return each_of(("tegotae", "apnc"), of)
+
+
+def _text(gain: float | None) -> str:
+    return "-" if gain is None else f"{gain:g}"
 
 
 def table(rows: Sequence[Row]) -> str:
