@@ -59,7 +59,7 @@ def measure(record: Record) -> Row:
     steps = steps_of(record.experiment.turn if turning else record.experiment.mi)
     starts = [start for start, _ in steps]
     yaw = np.unwrap(record.plant["rpy"][:, 2])
-    speed = metrics.smoothed_speed(record.time, record.plant["position"], yaw)
+    place = record.plant["position"]
     found: Row = {}
     for i, end in enumerate([*starts[1:], record.experiment.duration]):
         begin, name = starts[i] + SETTLING, f"{YAW_RATE if turning else SPEED}_{i + 1}"
@@ -67,9 +67,11 @@ def measure(record: Record) -> Row:
         if len(inside) < 2 or record.ended_at < end:
             found[name] = None
             continue
-        first, last = inside[[0, -1]]
-        rate = (yaw[last] - yaw[first]) / (end - begin)
-        found[name] = float(rate if turning else speed[inside].mean())
+        if turning:
+            figure = (yaw[inside[-1]] - yaw[inside[0]]) / (end - begin)
+        else:
+            figure = metrics.smoothed_speed(record.time[inside], place[inside], yaw[inside]).mean()
+        found[name] = float(figure)
     return found
 
 

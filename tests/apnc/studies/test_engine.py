@@ -30,7 +30,7 @@ SHORT: dict[str, Any] = {"trials": 1, "duration": 1.0, "chosen": {"mi": [0.08]}}
 def quick(trial: Trial, series: Path | None = None) -> Row:
     """A row without a run."""
     rest = {"version": "0", "fell": False, "end": "complete", "error": ""}
-    return {"study": trial.study, "key": trial.place[1], **trial.cell, **rest}
+    return {"study": trial.study, "key": trial.place[-1], **trial.cell, **rest}
 
 
 @pytest.fixture
@@ -39,7 +39,7 @@ def no_runs(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     asked: list[str] = []
 
     def work(trial: Trial, series: Path | None = None) -> Row:
-        asked.append(trial.place[1])
+        asked.append(trial.place[-1])
         return quick(trial)
 
     monkeypatch.setattr(engine, "run_trial", work)
@@ -180,7 +180,7 @@ def test_an_error_in_the_loop_loses_nothing(tmp_path: Path, no_runs: list[str]) 
 
 def test_series_are_kept_on_request(tmp_path: Path) -> None:
     (row,) = run_study("mi", methods=["apnc"], output=tmp_path, series=True, **SHORT)
-    series = tmp_path / "series" / f"mi-{row['key']}.csv"
+    series = tmp_path / "series" / f"mi-apnc-{row['key']}.csv"
     assert len(series.read_text().splitlines()) == 61
     with pytest.raises(ValueError, match="series are kept in a folder"):
         run_study("mi", series=True)
@@ -202,7 +202,7 @@ def test_rows_do_not_depend_on_workers(tmp_path: Path) -> None:
 
 
 def row(key: str, **more: Any) -> Row:
-    return {"study": "mi", "key": key, **more}
+    return {"study": "mi", "method": "apnc", "key": key, **more}
 
 
 def test_a_torn_line_is_dropped_and_the_rest_kept(tmp_path: Path) -> None:
@@ -213,7 +213,7 @@ def test_a_torn_line_is_dropped_and_the_rest_kept(tmp_path: Path) -> None:
     store.close()
     path.write_bytes(path.read_bytes()[:-4])
     store = Store(path)
-    assert store.rows == {("mi", "a"): row("a", x=1)}
+    assert store.rows == {("mi", "apnc", "a"): row("a", x=1)}
     store.add(row("b", x=2))
     store.close()
     assert [json.loads(line)["key"] for line in path.read_text().splitlines()] == ["a", "b"]
@@ -224,7 +224,7 @@ def test_a_damaged_line_costs_its_own_trial_only(tmp_path: Path) -> None:
     whole = json.dumps(row("b"))
     path.write_text(f'{{"study": "mi"\n"text"\n{{"key": "a"}}\n{whole}\n')
     store = Store(path)
-    assert list(store.rows) == [("mi", "b")]
+    assert list(store.rows) == [("mi", "apnc", "b")]
     store.close()
 
 
