@@ -27,7 +27,7 @@ from apnc.studies.claims import (
 )
 from apnc.studies.contenders import CONTENDERS, contender
 from apnc.studies.plots import convergence
-from apnc.studies.rows import AUTHORS, Row, cells_in, is_number, matching, successes, values
+from apnc.studies.rows import AUTHORS, STRICT, Row, cells_in, is_number, matching, successes, values
 from apnc.studies.states.measure import STOPPED, WALKS
 from apnc.studies.statistics import compare, median, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study
@@ -37,10 +37,13 @@ from apnc_core.variables import row as row_of
 GAINS: Final[Mapping[str, tuple[float, ...]]] = {
     "tegotae": (0.015, 0.03, 0.06, 0.09, 0.12, 0.15, 0.2, 0.3, 0.45),
     "phase_reset": (0.1, 0.2, 0.4, 0.6, 0.8, 1.2, 1.6),
-    "apnc": (0.01, 0.1, 0.3, 1.0, 2.0, 4.0),
+    "apnc": (0.01, 0.1, 0.3, 1.0, 3.0, 10.0),
     "apnc_printed": (1.0,),
 }
-"""Tegotae's gain, the threshold of the phase reset, a factor on the learning rates of APNC."""
+"""Tegotae's gain, the threshold of the phase reset, a factor on the learning rates of APNC.
+
+Rates end at their limit of 1; the printed ones are no factor of the robot's own.
+"""
 
 PARAMETERS: Final = {"tegotae": "gamma_tegotae", "phase_reset": "grf_reset"}
 """What is varied of a baseline."""
@@ -89,32 +92,35 @@ def measure(record: Record) -> Row:
 
 
 def best_setting(rows: Sequence[Row]) -> float | None:
-    """The gain with the most walks in the strict trot, of those the one that forms it first.
+    """The gain with the most walks in the strict trot; of equal ones that which forms it first.
 
-    A walk counts if the gait formed by the strict criterion, the robot did not fall and it goes
-    at 0.03 m/s or more at the end. First: lowest median time by the authors' criterion, a run
-    without one counting as never; the smaller gain if that is equal too.
+    A walk counts if the gait formed by the criterion, the robot did not fall and it goes at
+    0.03 m/s or more at the end. Of gains with as many by the strict criterion, the one with most
+    by the authors'; then the one with the lowest median of the authors' time, a run without one
+    counting as never; then the smaller one.
 
     Args:
         rows: of one method, with as many runs at every gain.
 
     Returns:
-        The gain, None without a row or if no run counts.
+        The gain, None without a row or if no run counts by either criterion.
     """
 
-    def merit(gain: float) -> tuple[int, float, float]:
+    def merit(gain: float) -> tuple[int, int, float, float]:
         own = matching(rows, gain=gain)
         times = [row[AUTHORS] if is_number(row.get(AUTHORS)) else np.inf for row in own]
-        return -walks(own), float(np.median(times)), gain
+        return -walks(own), -walks(own, AUTHORS), float(np.median(times)), gain
 
     best = min(cells_in(rows, "gain"), key=merit, default=None)
-    return best if best is not None and walks(matching(rows, gain=best)) else None
+    if best is None or merit(best)[:2] == (0, 0):
+        return None
+    return best
 
 
-def walks(rows: Sequence[Row]) -> int:
-    """How many runs end walking in the strict trot."""
+def walks(rows: Sequence[Row], criterion: str = STRICT) -> int:
+    """How many runs end walking, after the gait formed by a criterion."""
     fast = (is_number(row.get(LATE_SPEED)) and row[LATE_SPEED] >= WALKS for row in rows)
-    return sum(a and b for a, b in zip(successes(rows), fast, strict=True))
+    return sum(a and b for a, b in zip(successes(rows, criterion), fast, strict=True))
 
 
 def _reference(rows: Sequence[Row], label: str) -> float | None:

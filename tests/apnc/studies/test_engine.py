@@ -16,10 +16,11 @@ from typing import Any
 
 import pytest
 
-from apnc.studies import engine
+from apnc.studies import contenders, engine
+from apnc.studies.contenders import CONTENDERS
 from apnc.studies.engine import run_study, run_trial
 from apnc.studies.rows import Row
-from apnc.studies.store import Store
+from apnc.studies.store import Store, place_of
 from apnc.studies.study import Study, Trial
 from build_fmu.build import host_fmu
 from exudyn_models.robot import ROBOTS
@@ -142,11 +143,11 @@ def test_resume_runs_rows_with_an_error_again(
     with monkeypatch.context() as context:
         context.setattr(engine, "run_trial", broken)
         first = run_study("damage", output=tmp_path, trials=1)
-    assert [row["error"] for row in first] == ["RuntimeError: moo", "", ""]
+    assert [row["error"] for row in first] == ["RuntimeError: moo", *[""] * 4]
     rows = run_study("damage", output=tmp_path, trials=1, resume=True)
     assert no_runs == [first[0]["key"]]
-    assert [row["error"] for row in rows] == ["", "", ""]
-    assert len(lines(tmp_path)) == 4  # the last line of a trial counts
+    assert [row["error"] for row in rows] == [""] * 5
+    assert len(lines(tmp_path)) == 6  # the last line of a trial counts
 
 
 def test_resume_does_not_keep_rows_of_another_robot(
@@ -160,11 +161,11 @@ def test_resume_does_not_keep_rows_of_another_robot(
     file.write_text(text)
     before = run_study("damage", output=tmp_path / "out", trials=1)
     again = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
-    assert again == before and len(no_runs) == 3
+    assert again == before and len(no_runs) == 5
     friction = next(line for line in text.splitlines() if line.startswith("friction ="))
     file.write_text(text.replace(friction, "friction = 0.33"))
     after = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
-    assert len(no_runs) == 6
+    assert len(no_runs) == 10
     assert not {row["key"] for row in before} & {row["key"] for row in after}
 
 
@@ -176,6 +177,18 @@ def test_an_error_in_the_loop_loses_nothing(tmp_path: Path, no_runs: list[str]) 
     with pytest.raises(KeyboardInterrupt):
         run_study("damage", output=tmp_path, trials=2, progress=progress)
     assert len(lines(tmp_path)) == 2
+
+
+def test_labels_of_one_experiment_are_rows_of_their_own(
+    monkeypatch: pytest.MonkeyPatch, no_runs: list[str]
+) -> None:
+    """The best setting of a baseline may be the paper's."""
+    paper = CONTENDERS["tegotae"].settings_in("damage")
+    best = CONTENDERS["tegotae_best"]._replace(settings=paper)
+    monkeypatch.setattr(contenders, "CONTENDERS", {**CONTENDERS, "tegotae_best": best})
+    rows = run_study("damage", trials=1, methods=["tegotae", "tegotae_best"])
+    assert [row["method"] for row in rows] == ["tegotae", "tegotae_best"]
+    assert rows[0]["key"] == rows[1]["key"]
 
 
 def test_series_are_kept_on_request(tmp_path: Path) -> None:
@@ -267,7 +280,7 @@ def test_a_killed_study_resumes_without_loss_or_repetition(tmp_path: Path) -> No
     assert 2 <= len(before) < 120
     rows = run_study("damage", trials=1, duration=1.0, output=tmp_path, resume=True)
     assert lines(tmp_path)[: len(before)] == before
-    assert len(rows) == len({row["key"] for row in rows}) == 3
+    assert len(rows) == len({place_of(row) for row in rows}) == 5
 
 
 @pytest.fixture

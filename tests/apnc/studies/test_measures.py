@@ -317,7 +317,8 @@ def setting_rows(
         (((0.1, 4, 9.0, 0.1), (0.2, 4, 2.0, 0.1), (0.3, 4, 3.0, 0.1)), 0.2),  # then the first
         (((0.1, 4, 2.0, 0.029), (0.2, 1, 9.0, 0.03)), 0.2),  # one that stands does not count
         (((0.3, 4, 2.0, 0.1), (0.1, 4, 2.0, 0.1)), 0.1),  # then the weaker
-        (((0.1, 0, 2.0, 0.1), (0.2, 4, 2.0, 0.0)), None),  # none walks in the trot
+        (((0.1, 0, 2.0, 0.1), (0.2, 4, 2.0, 0.0)), 0.1),  # none walks in the strict trot
+        (((0.1, 4, 2.0, 0.0), (0.2, 4, 2.0, 0.02)), None),  # none walks at all
         ((), None),
     ],
 )
@@ -334,10 +335,17 @@ def test_a_run_that_fell_or_has_no_figures_is_no_walk() -> None:
     assert gains.walks(rows) == 2
 
 
+def test_without_a_strict_trot_the_most_by_the_authors_criterion_are_best() -> None:
+    rows = setting_rows((0.1, 0, 1.0, 0.1), (0.2, 0, 9.0, 0.1))
+    rows[0]["convergence_time_authors_s"] = None
+    assert gains.best_setting(rows) == 0.2
+
+
 def test_never_is_later_than_any_time() -> None:
-    rows = setting_rows((0.1, 2, 40.0, 0.1), (0.2, 2, 5.0, 0.1))
-    for row in rows[4:7]:  # three of four never
-        row["convergence_time_authors_s"] = None
+    rows = setting_rows((0.1, 0, 40.0, 0.1), (0.2, 0, 5.0, 0.1))
+    for standing, without in zip(rows[:3], rows[4:7], strict=True):  # one walk of each is left
+        standing["late_speed_m_per_s"] = 0.0
+        without["convergence_time_authors_s"] = None
     assert gains.best_setting(rows) == 0.1
 
 
