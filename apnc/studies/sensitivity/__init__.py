@@ -46,7 +46,7 @@ def _soft(robot: RobotDescription) -> RobotDescription:
     return _set("servo.damping", 1.5)(_set("servo.stiffness", 12.0)(robot))
 
 
-SOFT: Final = "soft servos: P 12, D 1.5"
+SOFT: Final = "soft servos: P 12 and D 1.5"
 
 CHANGES: Final[Mapping[str, Change]] = {
     "nothing": lambda robot: robot,
