@@ -17,7 +17,7 @@ from apnc.report.folder import write_together
 from apnc.studies.registry import ALL, METHODS, STUDIES, load, names_of
 from apnc.studies.report import files_of
 from apnc.studies.rows import Row
-from apnc.studies.store import Store
+from apnc.studies.store import Store, place_of
 from apnc.studies.study import Chosen, Trial
 from apnc.studies.workers import pool, rows_of
 from apnc.summary import summarise
@@ -52,8 +52,8 @@ def run_study(
     Args:
         name: a study of the registry, or ``all``.
         trials: seeds per cell of the grid: 0 ... trials - 1.
-        methods: controllers to compare; the study's own if omitted. With ``all``, studies that
-            take no methods keep their own.
+        methods: labels of the contenders to compare; the study's own if omitted. With ``all``,
+            studies that take no methods keep their own.
         workers: processes on this machine.
         scheduler: address of a Dask scheduler; the trials then run there.
         output: folder, made if missing; None keeps no files.
@@ -61,7 +61,8 @@ def run_study(
             error run again.
         series: keep the record of every trial, in ``series/``.
         duration: simulated time of every trial [s]; the study's own if omitted.
-        chosen: values along axes of the grid, by name; all of the study's if omitted.
+        chosen: values along axes of the grid, by name, which get all seeds of every method; the
+            study's own if omitted.
         progress: called after every trial.
         stop: asked before every trial; True ends the study, what is finished stays.
 
@@ -95,7 +96,7 @@ def run_study(
         at_once = len(left) if scheduler else workers
         for row in rows_of(list(left.values()), work, executor, at_once, stop):
             store.add(row)
-            del left[row["study"], row["key"]]
+            del left[place_of(row)]
             tell()
     rows = [store.rows[at] for at in grid if at in store.rows]
     if folder is not None:
@@ -126,7 +127,7 @@ def run_trial(trial: Trial, series: Path | None = None) -> Row:
         trial: the trial.
         series: folder for its record, or None to keep none.
     """
-    row: Row = {"study": trial.study, "key": trial.place[1], **trial.cell}
+    row: Row = {"study": trial.study, "key": trial.place[-1], **trial.cell}
     try:
         record = simulate(trial.experiment)
         if series is not None:

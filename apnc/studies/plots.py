@@ -8,6 +8,7 @@ from typing import Final
 
 from apnc.report import theme
 from apnc.report.figure import Figure, Trace
+from apnc.studies.contenders import contender
 from apnc.studies.rows import (
     AUTHORS,
     STRICT,
@@ -17,7 +18,9 @@ from apnc.studies.rows import (
     matching,
     methods_in,
     successes,
+    values,
 )
+from apnc.studies.statistics import of_runs
 
 MIN_BOX: Final = 5
 """Fewer values than this are shown one by one, without quartiles."""
@@ -28,17 +31,11 @@ CRITERIA: Final = {
 }
 COLOURS: Final = (theme.BLUE, theme.ORANGE, theme.GREEN, theme.PURPLE, theme.VERMILLION, theme.SKY)
 
-_STYLES: Final = {
-    "apnc": ("APNC", theme.BLUE, "circle"),
-    "apc": ("APC alone", theme.SKY, "circle-open"),
-    "tegotae": ("Tegotae", theme.ORANGE, "diamond"),
-    "phase_reset": ("phase resetting", theme.GREEN, "triangle-up"),
-}
 
-
-def style(method: str) -> tuple[str, str, str]:
-    """Label, colour and symbol of a method; one without its own still shows, by its name."""
-    return _STYLES.get(method, (method, theme.PURPLE, "square"))
+def counted(rows: Sequence[Row], column: str, method: str) -> str:
+    """Name of a contender, with the number of its runs that have a figure."""
+    runs = matching(rows, method=method)
+    return f"{contender(method).name}, n = {of_runs(len(values(runs, column)), len(runs))}"
 
 
 def spread(
@@ -70,7 +67,8 @@ def over_axis(
             for row in matching(rows, method=method)
             if is_number(row.get(column))
         ]
-        traces += spread(points, *style(method))
+        look = contender(method)
+        traces += spread(points, counted(rows, column, method), look.colour, look.symbol)
     title = label.split(" [", maxsplit=1)[0].capitalize()
     cells = [str(cell) for cell in cells_in(rows, axis[0])]
     return _figure(f"{rows[0]['study']}-{column}", title, note, traces, cells, axis[1], label)
@@ -101,7 +99,7 @@ def _convergence(rows: Sequence[Row], axis: tuple[str, str], column: str) -> Fig
     figure = replace(figure, title=f"Convergence, {CRITERIA[column].split(':')[0]}")
     cells = cells_in(rows, axis[0])
     for method in methods_in(rows):
-        label, colour, symbol = style(method)
+        label, (_, name, colour, symbol, *_) = counted(rows, column, method), contender(method)
         hits = [successes(rows, column, method=method, **{axis[0]: cell}) for cell in cells]
         share = [100.0 * sum(hit) / len(hit) if hit else None for hit in hits]
         look = {
@@ -110,7 +108,7 @@ def _convergence(rows: Sequence[Row], axis: tuple[str, str], column: str) -> Fig
             "size": 9,
             "line": {"color": theme.INK},
         }
-        trace = {"type": "scatter", "mode": "markers", "name": f"{label}: success", "marker": look}
+        trace = {"type": "scatter", "mode": "markers", "name": f"{name}: success", "marker": look}
         place = {"x": [str(cell) for cell in cells], "y": share, "yaxis": "y2"}
         figure.data.append(trace | place | {"legendgroup": label, "offsetgroup": label})
     figure.layout["height"] = 380
@@ -120,13 +118,18 @@ def _convergence(rows: Sequence[Row], axis: tuple[str, str], column: str) -> Fig
 
 
 def side_by_side(
-    key: str, title: str, note: str, unit: str, groups: Mapping[str, Sequence[float]]
+    key: str,
+    title: str,
+    note: str,
+    unit: str,
+    groups: Mapping[str, Sequence[float]],
+    colours: Sequence[str] = COLOURS,
 ) -> Figure:
     """Groups of numbers beside each other, each with its own colour."""
     traces = [
         trace | {"showlegend": False}
         for at, (name, numbers) in enumerate(groups.items())
-        for trace in spread([(name, value) for value in numbers], name, COLOURS[at % len(COLOURS)])
+        for trace in spread([(name, value) for value in numbers], name, colours[at % len(colours)])
     ]
     figure = _figure(key, title, note, traces, list(groups), "", unit)
     figure.layout.update(boxmode="overlay", scattermode="overlay")

@@ -39,6 +39,8 @@ STUDIES: Final = {
         Entry("states", "Motor memory", "Fig. 9-12"),
         Entry("steering", "Speed and direction", "Fig. 13, 14", ("course",)),
         Entry("gait", "How it walks", "", ("mi",)),
+        Entry("gains", "Strength of the feedback", "4.1", (METHODS, "mi", "gain")),
+        Entry("symmetry", "Equal loads", "4.1.1", ("mi",)),
         Entry("sensitivity", "Numbers of the robot", "", ("change", "mi")),
         Entry("engines", "Two engines", "", ("engine", "mi")),
         Entry("contact", "Integration step of the ground contact", "", ("depth", "steps")),

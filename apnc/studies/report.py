@@ -14,9 +14,11 @@ from apnc.report.figure import Figure
 from apnc.report.folder import Write
 from apnc.report.html import page
 from apnc.studies.claims import Claim, Finding, findings
-from apnc.studies.plots import CRITERIA, style
+from apnc.studies.contenders import contender
+from apnc.studies.plots import CRITERIA
 from apnc.studies.registry import STUDIES, load
 from apnc.studies.rows import Row, matching, methods_in
+from apnc.studies.store import place_of
 from apnc.studies.study import Study, Trial
 from apnc.studies.table import markdown
 
@@ -74,7 +76,7 @@ def part_of(study: Study, grid: Sequence[Trial], rows: Sequence[Row], scenes: bo
     """What the report shows of the rows of one study."""
     commands = {trial.place: trial.experiment.command() for trial in grid}
     failed = [
-        (row["error"] or row["end"], commands[row["study"], row["key"]])
+        (row["error"] or row["end"], commands[place_of(row)])
         for row in rows
         if row["end"] != "complete"
     ]
@@ -85,8 +87,8 @@ def part_of(study: Study, grid: Sequence[Trial], rows: Sequence[Row], scenes: bo
 def _asked(study: Study, grid: Sequence[Trial], rows: Sequence[Row]) -> list[tuple[str, str]]:
     """Robot, duration, methods and seeds, and what was asked for and not run."""
     run = methods_in(rows)
-    methods = ", ".join(style(method)[0] for method in run)
-    if missing := [style(method)[0] for method in study.methods if method not in run]:
+    methods = "; ".join(_told(study, method) for method in run)
+    if missing := [contender(method).name for method in study.methods if method not in run]:
         methods += f"; not run: {', '.join(missing)}"
     robots = sorted({trial.experiment.description.name for trial in grid})
     spans = sorted({trial.experiment.duration for trial in grid})
@@ -99,6 +101,12 @@ def _asked(study: Study, grid: Sequence[Trial], rows: Sequence[Row]) -> list[tup
         ("trials", f"{len(rows)} of {len(grid)}"),
         ("criteria", "; ".join(CRITERIA.values())),
     ]
+
+
+def _told(study: Study, label: str) -> str:
+    """Name of a contender and its settings."""
+    used = contender(label)
+    return " ".join([used.name, *(f"{k}={v:g}" for k, v in used.settings_in(study.name).items())])
 
 
 def _facts(grid: Sequence[Trial], rows: Sequence[Row], wall_s: float) -> list[tuple[str, str]]:

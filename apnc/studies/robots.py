@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, TypeVar
 
+from exudyn_models.robot import RobotDescription
+
 Part = TypeVar("Part")
 
 
@@ -21,6 +23,12 @@ def changed(robot: Part, path: str, change: Callable[[Any], Any]) -> Part:
     present = getattr(robot, name)
     new: Any = changed(present, rest, change) if rest else change(present)
     return replace(robot, **{name: new})  # type: ignore[type-var]  # a dataclass
+
+
+def symmetric(robot: RobotDescription) -> RobotDescription:
+    """The robot with its centre of mass in the middle plane and sensors without noise."""
+    centred = changed(robot, "trunk.com_side_offset", constant(0.0))
+    return changed(centred, "sensor.noise", constant(0.0))
 
 
 def constant(value: Any) -> Callable[[Any], Any]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any, Final
 
-from apnc_core.enumerations import Method
+from apnc.studies.contenders import CONTENDERS, contender
 
 Row = dict[str, Any]
 
@@ -36,12 +36,13 @@ def successes(rows: Sequence[Row], column: str = STRICT, **where: Any) -> list[b
 
 
 def methods_in(rows: Sequence[Row]) -> list[str]:
-    """Methods that occur, in the controller's order.
+    """Labels that occur, in the order of the contenders.
 
     Raises:
-        ValueError: a method that the controller does not have.
+        ValueError: an unknown label.
     """
-    return sorted({row["method"] for row in rows}, key=list(Method.__members__).index)
+    found = {row["method"]: contender(row["method"]) for row in rows}
+    return [label for label in CONTENDERS if label in found]
 
 
 def cells_in(rows: Sequence[Row], axis: str) -> list[Any]:

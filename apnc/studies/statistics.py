@@ -37,6 +37,11 @@ def rate(outcomes: Sequence[bool]) -> Rate:
     return Rate(k, n, float(interval.low), float(interval.high))
 
 
+def of_runs(size: int, runs: int) -> str:
+    """How many of the runs have a figure: their number if all do."""
+    return str(size) if size == runs else f"{size} of {runs}"
+
+
 class Median(NamedTuple):
     """A median with its bootstrap 95 % interval, all nan without a value."""
 
@@ -45,12 +50,19 @@ class Median(NamedTuple):
     high: float
     size: int
 
-    def text(self, digits: int = 2, unit: str = "") -> str:
-        """Value and interval, or a dash if there is nothing to take it of."""
+    def text(self, digits: int = 2, unit: str = "", runs: int | None = None) -> str:
+        """Value and interval, or a dash if there is nothing to take it of.
+
+        Args:
+            digits: after the point.
+            unit: put behind.
+            runs: of which those with a number are told.
+        """
+        n = "" if runs is None else f", n = {of_runs(self.size, runs)}"
         if self.size == 0:
-            return "-"
+            return f"-{n}"
         spread = f"{self.low:.{digits}f} ... {self.high:.{digits}f}"
-        return f"{self.value:.{digits}f} ({spread}) {unit}".strip()
+        return f"{self.value:.{digits}f} ({spread}) {unit}".strip() + n
 
 
 def median(values: Sequence[float]) -> Median:
@@ -96,6 +108,26 @@ def compare(a: Sequence[float], b: Sequence[float]) -> Comparison:
         return Comparison(1.0, 0.0)
     test = stats.mannwhitneyu(a, b, alternative="two-sided")
     return Comparison(float(test.pvalue), float(2.0 * test.statistic / (len(a) * len(b)) - 1.0))
+
+
+def compare_rates(a: Rate, b: Rate) -> Comparison:
+    """Fisher's exact test; the effect is by how much the share of b exceeds that of a."""
+    if not a.trials or not b.trials:
+        return Comparison(1.0, 0.0)
+    table = [[r.successes, r.trials - r.successes] for r in (a, b)]
+    return Comparison(float(stats.fisher_exact(table).pvalue), b.value - a.value)
+
+
+def compare_spread(a: Sequence[float], b: Sequence[float]) -> Comparison:
+    """Brown and Forsythe's test of equal spread, for two values each and more.
+
+    The effect is the share by which the standard deviation of b exceeds that of a, of both.
+    """
+    spreads = float(np.std(a)), float(np.std(b))
+    if sum(spreads) == 0.0:
+        return Comparison(1.0, 0.0)
+    test = stats.levene(a, b, center="median")
+    return Comparison(float(test.pvalue), (spreads[1] - spreads[0]) / sum(spreads))
 
 
 def holm(tests: Sequence[Comparison]) -> list[Comparison]:

@@ -10,6 +10,11 @@ from pathlib import Path
 from apnc.studies.rows import Row
 
 
+def place_of(row: Row) -> tuple[str, str, str]:
+    """Where a row stands, see ``Trial.place``."""
+    return row["study"], row["method"], row["key"]
+
+
 class Store(contextlib.ExitStack):
     """Finished trials, one JSON object per line; the last line of a trial counts.
 
@@ -17,12 +22,12 @@ class Store(contextlib.ExitStack):
         path: the file, made with its folder if it is not there; None keeps the rows in memory.
 
     Attributes:
-        rows: by study and key; without a line that a kill has torn, which is dropped.
+        rows: by study, method and key; without a line that a kill has torn, which is dropped.
     """
 
     def __init__(self, path: Path | None) -> None:
         super().__init__()
-        self.rows: dict[tuple[str, str], Row] = {}
+        self.rows: dict[tuple[str, str, str], Row] = {}
         self._file = None
         if path is None:
             return
@@ -34,7 +39,7 @@ class Store(contextlib.ExitStack):
         for line in lines:
             with contextlib.suppress(ValueError, KeyError, TypeError):  # a damaged line
                 row = json.loads(line)
-                self.rows[row["study"], row["key"]] = row
+                self.rows[place_of(row)] = row
 
     def add(self, row: Row) -> None:
         """Append a row; it is on disk when this returns.
@@ -42,7 +47,7 @@ class Store(contextlib.ExitStack):
         Raises:
             OSError: it cannot be written; the file is named.
         """
-        self.rows[row["study"], row["key"]] = row
+        self.rows[place_of(row)] = row
         if self._file is not None:
             try:
                 self._file.write(json.dumps(row, allow_nan=False).encode() + b"\n")

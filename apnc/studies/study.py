@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -13,6 +14,7 @@ from apnc.loop.record import Record
 from apnc.loop.steps import steps_text
 from apnc.report.figure import Figure
 from apnc.studies.claims import Claim
+from apnc.studies.contenders import ALL, contender
 from apnc.studies.registry import METHODS, STUDIES, Entry
 from apnc.studies.rows import Row
 
@@ -20,8 +22,7 @@ Value = str | float | int
 Chosen = Mapping[str, Sequence[Value]]
 """Values along axes of a grid, by name of the axis."""
 
-BASELINES: Final = ("apnc", "tegotae", "phase_reset")
-"""The controllers that the paper compares."""
+Seeds = Callable[[Mapping[str, Value], int], int]
 
 WALK_MI: Final = 0.08
 """MI of the walks of sections 3.1.2 to 3.1.4."""
@@ -33,6 +34,18 @@ WALK_S: Final = 45.0
 """Length of a walk in section 3.1 [s]."""
 
 
+def fewer_of_others(**at: Sequence[Value]) -> Seeds:
+    """All seeds of APNC; half of them of the others, and those only at some values of an axis."""
+
+    def seeds(cell: Mapping[str, Value], trials: int) -> int:
+        if cell["method"] == "apnc":
+            return trials
+        there = all(cell[axis] in values for axis, values in at.items())
+        return math.ceil(trials / 2) if there else 0
+
+    return seeds
+
+
 @dataclass(frozen=True)
 class Trial:
     """One experiment of a study, and where it stands in the grid."""
@@ -42,9 +55,9 @@ class Trial:
     experiment: Experiment
 
     @cached_property
-    def place(self) -> tuple[str, str]:
-        """Study, and key of the experiment: two studies may run the same one."""
-        return self.study, self.experiment.key()
+    def place(self) -> tuple[str, str, str]:
+        """Study, label and key: two studies, and two labels, may mean the same experiment."""
+        return self.study, self.cell["method"], self.experiment.key()
 
 
 @dataclass(frozen=True)
@@ -53,9 +66,12 @@ class Study:
 
     Args:
         name: as in the registry.
-        experiment: makes one of the method, the seed and a value per axis, given by name.
+        experiment: makes one of the FMU's method, the seed and a value per axis, given by name;
+            what it sets goes before the settings of the contender.
         axes: values along each axis of the grid, by name.
-        methods: controllers that are run.
+        methods: labels of the contenders that are run.
+        seeds: how many of the seeds asked for a cell (its label and values) gets, 0 for none; a
+            grid along chosen values has all.
         measure: figures of a record that its summary does not have, ``None`` where undefined.
         claims: what the paper says of it.
         figures: made of the rows, of which there is at least one.
@@ -66,7 +82,8 @@ class Study:
     name: str
     experiment: Callable[..., Experiment]
     axes: Chosen = field(default_factory=dict)
-    methods: tuple[str, ...] = BASELINES
+    methods: tuple[str, ...] = ALL
+    seeds: Seeds = lambda cell, trials: trials
     measure: Callable[[Record], Row] = lambda record: {}
     claims: tuple[Claim, ...] = ()
     figures: Callable[[Sequence[Row]], list[Figure]] = lambda rows: []
@@ -85,7 +102,7 @@ class Study:
         chosen: Chosen | None = None,
         duration: float | None = None,
     ) -> list[Trial]:
-        """Every value of every axis, every seed, every method; see ``run_study``."""
+        """Every value of every axis, its seeds, every method; see ``run_study``."""
         if trials < 1:
             raise ValueError(f"trials = {trials} is not at least 1")
         if methods is not None and METHODS not in self.entry.options:
@@ -102,6 +119,7 @@ class Study:
             for cell in cells
             for seed in range(trials)
             for method in used
+            if chosen or seed < self.seeds({"method": method, **cell}, trials)
         ]
 
     def _values(self, axis: str, chosen: Sequence[Value] | None) -> list[Value]:
@@ -120,9 +138,11 @@ class Study:
         return list(dict.fromkeys(values))
 
     def _trial(self, cell: dict[str, Value], duration: float | None) -> Trial:
-        experiment = self.experiment(**cell)
-        if duration is not None:
-            experiment = replace(experiment, duration=duration)
+        used = contender(str(cell["method"]))
+        experiment = self.experiment(**cell | {"method": used.method})
+        settings = {**used.settings_in(self.name), **experiment.settings}
+        length = experiment.duration if duration is None else duration
+        experiment = replace(experiment, settings=settings, duration=length)
         mi = experiment.mi if isinstance(experiment.mi, int | float) else steps_text(experiment.mi)
         first = {"method": cell["method"], "mi": mi, "seed": cell["seed"]}
         return Trial(self.name, {**first, "duration": experiment.duration, **cell}, experiment)

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 from typing import Any
 
+from apnc.studies.contenders import ALL
+
 Row = dict[str, Any]
 Figures = Callable[[Row], Row]
 
@@ -13,7 +15,7 @@ Figures = Callable[[Row], Row]
 def made_up(
     axes: Mapping[str, Sequence[Any]],
     figures: Figures,
-    methods: Sequence[str] = ("apnc", "tegotae", "phase_reset"),
+    methods: Sequence[str] = ALL,
     seeds: int = 6,
     study: str = "mi",
 ) -> list[Row]:

@@ -14,6 +14,7 @@ from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
 from apnc.studies.engines import ENGINES
 from apnc.studies.engines.figures import STYLES
+from apnc.studies.robots import symmetric
 from apnc.studies.study import WALK_S
 from apnc.studies.table import markdown, middle
 from apnc.summary import Summary, summarise
@@ -22,12 +23,6 @@ from exudyn_models.robot import RobotDescription, load_robot
 SEEDS: Final = 5
 
 STIFFER, LESS_DAMPED = 5.0, 0.1
-
-
-def symmetric(robot: RobotDescription) -> RobotDescription:
-    """The robot with its centre of mass in the middle plane and sensors without noise."""
-    trunk, sensor = replace(robot.trunk, com_side_offset=0.0), replace(robot.sensor, noise=0.0)
-    return replace(robot, trunk=trunk, sensor=sensor)
 
 
 def bouncing(robot: RobotDescription) -> RobotDescription:

@@ -10,7 +10,18 @@ import numpy as np
 from scipy import stats
 
 from apnc.loop.experiment import Experiment
-from apnc.studies.claims import NO, Claim, Finding, Rule, faster, trend, verdict
+from apnc.studies.claims import (
+    FEW,
+    MIN_SEEDS,
+    Claim,
+    Finding,
+    Rule,
+    both_criteria,
+    faster,
+    trend,
+    verdict,
+)
+from apnc.studies.contenders import ALL, PHASE_RESET, TEGOTAE, contender
 from apnc.studies.plots import convergence, over_axis
 from apnc.studies.rows import (
     AUTHORS,
@@ -25,39 +36,50 @@ from apnc.studies.rows import (
     values,
 )
 from apnc.studies.statistics import median, rate
-from apnc.studies.study import WALK_S, Study
+from apnc.studies.study import WALK_S, Study, fewer_of_others
 from apnc.studies.table import markdown, middle
 
 MI_VALUES: Final = tuple(round(0.04 + 0.02 * i, 2) for i in range(13))
+OTHERS_MI: Final = MI_VALUES[::2]
+"""MI at which the others than APNC walk, with half of the seeds."""
+
 AXIS: Final = ("mi", "MI [1]")
 DUTY, STRIDE = "duty_factor_mean", "stride_frequency_hz"
 
 
 def within(limit: float) -> Rule:
-    """The median strict time of APNC is at most a limit [s], and every trial forms the gait."""
+    """The median time of APNC is at most a limit [s] and every trial forms the gait.
 
-    def rule(rows: Sequence[Row]) -> Finding:
-        strict, loose = (median(values(rows, c, method="apnc")) for c in (STRICT, AUTHORS))
-        hits = rate(successes(rows, method="apnc"))
-        fast = strict.size > 0 and strict.value <= limit
-        text = f"strict: {strict.text(1, 's')}, success {hits}; authors': {loose.text(1, 's')}"
+    Fast, but not in every trial, is 'partly'.
+    """
+
+    def check(rows: Sequence[Row], column: str) -> Finding:
+        time = median(values(rows, column, method="apnc"))
+        hits = rate(successes(rows, column, method="apnc"))
+        fast = time.size > 0 and time.value <= limit
+        text = f"{time.text(1, 's')}, success {hits}"
         return Finding(text, verdict(fast and hits.value == 1.0, fast))
 
-    return rule
+    return both_criteria(check)
 
 
 def duty_at_high_mi(rows: Sequence[Row]) -> Finding:
-    """From MI 0.24 on the median duty factor is within 0.05 of 0.72; above 0.5 is 'partly'."""
-    duty = median(values([row for row in rows if row["mi"] >= 0.24], DUTY, method="apnc"))
-    near = duty.size > 0 and abs(duty.value - 0.72) <= 0.05
-    return Finding(duty.text(2), verdict(near, duty.size > 0 and duty.value > 0.5))
+    """From MI 0.24 on the median duty factor is within 0.05 of 0.72; within 0.1 is 'partly'."""
+    high = [row for row in matching(rows, method="apnc") if row["mi"] >= 0.24]
+    duty = median(values(high, DUTY))
+    off = abs(duty.value - 0.72)
+    text = duty.text(2, runs=len(high))
+    return Finding(text, verdict(off <= 0.05, off <= 0.1) if duty.size >= MIN_SEEDS else FEW)
 
 
 def stride_line(rows: Sequence[Row]) -> Finding:
-    """The median stride frequency is within 15 % of 8.6 MI + 0.5 Hz; growing is 'partly'."""
+    """The median frequency of the oscillators is within 15 % of 8.6 MI + 0.5 Hz.
+
+    Growing with MI is 'partly'.
+    """
     known = [row for row in matching(rows, method="apnc") if is_number(row.get(STRIDE))]
     if len({row["mi"] for row in known}) < 3:
-        return Finding("too few", NO)
+        return Finding("too few", FEW)
     mi, frequency = (np.array([row[name] for row in known]) for name in ("mi", STRIDE))
     fit = stats.linregress(mi, frequency)
     off = float(np.median(np.abs(frequency / (8.6 * mi + 0.5) - 1.0)))
@@ -78,7 +100,7 @@ def _line(method: str, mi: float, rows: list[Row]) -> dict[str, str]:
     low, half, high, longest = np.percentile(strict, [25, 50, 75, 100]) if strict else [0.0] * 4
     spread = f"{half:.1f} ({low:.1f} ... {high:.1f}; {longest:.1f})" if strict else "-"
     return {
-        "method": method,
+        "method": contender(method).name,
         "MI": f"{mi:.2f}",
         "trot kept, strict (95 % interval)": str(hits),
         "strict time [s], median (quartiles; longest)": spread,
@@ -92,11 +114,11 @@ def _line(method: str, mi: float, rows: list[Row]) -> dict[str, str]:
 CLAIMS: Final = (
     Claim("abstract, 3.1.1", "the gait forms rapidly, within a few seconds", within(9.0)),
     Claim("3.1.1, Fig. 4", "APNC converges faster than Tegotae",
-          faster("apnc", "tegotae", "mi"), ("apnc", "tegotae")),
+          faster([("apnc", other) for other in TEGOTAE], "mi"), ("apnc", *TEGOTAE)),
     Claim("3.1.1, Fig. 4", "phase resetting converges faster than Tegotae",
-          faster("phase_reset", "tegotae", "mi"), ("phase_reset", "tegotae")),
+          faster(list(zip(PHASE_RESET, TEGOTAE, strict=True)), "mi"), (*PHASE_RESET, *TEGOTAE)),
     Claim("3.1.1, Fig. S4", "the duty factor grows with MI",
-          trend(DUTY, "mi", 1, ("apnc",), "duty factor and MI")),
+          trend(DUTY, "mi", 1)),
     Claim("3.1.1", "from MI 0.24 on the duty factor settles at about 0.72", duty_at_high_mi),
     Claim("3.1.1", "the stride frequency is about 8.6 MI + 0.5 Hz", stride_line),
 )  # fmt: skip
@@ -105,7 +127,8 @@ STUDY: Final = Study(
     "mi",
     partial(Experiment, duration=WALK_S),
     {"mi": MI_VALUES},
-    methods=("apnc", "apc", "tegotae", "phase_reset"),
+    methods=("apnc", "apc", *ALL[1:]),
+    seeds=fewer_of_others(mi=OTHERS_MI),
     claims=CLAIMS,
     figures=lambda rows: [
         *convergence(rows, AXIS),

@@ -11,7 +11,7 @@ from apnc.loop.experiment import Experiment
 from apnc.studies.robots import changed, constant
 from apnc.studies.rows import SPEED, STRICT, Row, cells_in, is_number, matching, values
 from apnc.studies.study import WALK_S, Study
-from apnc.studies.table import markdown
+from apnc.studies.table import markdown, middle
 from exudyn_models.robot import RobotDescription, load_robot
 
 Change = Callable[[RobotDescription], RobotDescription]
@@ -42,6 +42,12 @@ def _lighter_tibiae(moved: float) -> Change:
     return lambda robot: changed(robot, "legs", lambda legs: tuple(map(leg, legs)))
 
 
+def _soft(robot: RobotDescription) -> RobotDescription:
+    return _set("servo.damping", 1.5)(_set("servo.stiffness", 12.0)(robot))
+
+
+SOFT: Final = "soft servos: P 12 and D 1.5"
+
 CHANGES: Final[Mapping[str, Change]] = {
     "nothing": lambda robot: robot,
     "foot stiffness x 0.7": _times("contact.stiffness", 0.7),
@@ -58,6 +64,7 @@ CHANGES: Final[Mapping[str, Change]] = {
     "P x 1.2": _times("servo.stiffness", 1.2),
     "D x 0.8": _times("servo.damping", 0.8),
     "D x 1.2": _times("servo.damping", 1.2),
+    SOFT: _soft,
     "reflected inertia x 0.7": _times("servo.reflected_inertia", 0.7),
     "reflected inertia x 2": _times("servo.reflected_inertia", 2.0),
     "servo latency 5 ms": _set("servo.latency", 0.005),
@@ -75,6 +82,19 @@ CHANGES: Final[Mapping[str, Change]] = {
 """What is changed, by the name it has in the table."""
 
 
+OVER_MI: Final = ("nothing", SOFT)
+"""What walks at further MI, too: does the duty factor grow with MI, as in the paper?"""
+
+MI_VALUES: Final = (0.08, 0.12, 0.16, 0.2, 0.24, 0.28)
+USUAL_MI: Final = (0.08, 0.16)
+DUTY: Final = "duty_factor_mean"
+
+
+def seeds(cell: Mapping[str, Any], trials: int) -> int:
+    """All, but most changes walk at two MI only."""
+    return trials if cell["mi"] in USUAL_MI or cell["change"] in OVER_MI else 0
+
+
 def experiment(method: str, seed: int, change: str, mi: float) -> Experiment:
     """A walk of the changed robot."""
     robot = CHANGES[change](load_robot("lilibot"))
@@ -82,17 +102,32 @@ def experiment(method: str, seed: int, change: str, mi: float) -> Experiment:
 
 
 def table(rows: Sequence[Row]) -> str:
-    """A line per change, strict times and mean speed per MI; "-" did not form."""
-    return markdown(_line(change, matching(rows, change=change)) for change in _in_order(rows))
+    """A line per change, strict times and mean speed at every MI that all walked at.
+
+    "-" did not form. Then duty factor and speed over MI, of what walked at more of them.
+    """
+    changes, mis = _in_order(rows), cells_in(rows, "mi")
+    common = [mi for mi in mis if all(matching(rows, change=c, mi=mi) for c in changes)]
+    text = markdown(_line(c, matching(rows, change=c), common) for c in changes)
+    over = [c for c in changes if c in OVER_MI and len(common) < len(mis)]
+    return f"{text}\n{markdown(_duty(matching(rows, change=c), c) for c in over)}" if over else text
+
+
+def _duty(rows: Sequence[Row], change: str) -> dict[str, str]:
+    entries = {"change": change}
+    for mi in cells_in(rows, "mi"):
+        duty, speed = (middle(values(rows, c, mi=mi), d) for c, d in ((DUTY, 2), (SPEED, 3)))
+        entries |= {f"MI {mi:.2f}: duty factor": duty, f"MI {mi:.2f}: speed [m/s]": speed}
+    return entries
 
 
 def _in_order(rows: Sequence[Row]) -> list[str]:
     return list(dict.fromkeys(row["change"] for row in rows))
 
 
-def _line(change: str, rows: Sequence[Row]) -> dict[str, str]:
+def _line(change: str, rows: Sequence[Row], mis: Sequence[float]) -> dict[str, str]:
     entries = {"change": change}
-    for mi in cells_in(rows, "mi"):
+    for mi in mis:
         own = matching(rows, mi=mi)
         times = [row.get(STRICT) for row in own]
         shown = (f"{time:.1f}" if is_number(time) else "-" for time in times)
@@ -105,7 +140,8 @@ def _line(change: str, rows: Sequence[Row]) -> dict[str, str]:
 STUDY: Final = Study(
     "sensitivity",
     experiment,
-    {"change": tuple(CHANGES), "mi": (0.08, 0.16)},
+    {"change": tuple(CHANGES), "mi": MI_VALUES},
     methods=("apnc",),
+    seeds=seeds,
     table=table,
 )

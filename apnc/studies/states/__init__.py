@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from apnc.studies.claims import Claim, Finding, Rule, verdict
-from apnc.studies.rows import Row, matching, values
+from apnc.studies.claims import FEW, MIN_SEEDS, Claim, Finding, Rule, of_told, verdict
+from apnc.studies.contenders import RIVALS, contender
+from apnc.studies.rows import Row, is_number, matching, methods_in, values
 from apnc.studies.states.figures import COUPLINGS, STATES, figures, scenes
 from apnc.studies.states.measure import measure
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.statistics import median, rate
-from apnc.studies.study import Study
+from apnc.studies.study import Study, fewer_of_others
 from apnc.studies.table import markdown, middle
 
 FORMED, BACK = ("state_formation_time_s", "formed"), ("state_recovery_time_s", "back")
+
+GAMMA: Final = ("state_gamma_before", "state_gamma_after")
 
 MEANING: Final = {
     "apnc": ("the gait forms and lasts to the break",
@@ -24,6 +27,8 @@ MEANING: Final = {
             "front oscillators stop",
             "rocks in place, legs in phase"),
 }  # fmt: skip
+WITH_GAIT: Final = ("forms", "keeps the trot and walks", "comes back to the trot and walks")
+"""The same of all others, of which the paper has no figure."""
 
 
 def state(name: str, method: str, when: tuple[str, str] | None = None) -> Rule:
@@ -38,27 +43,73 @@ def state(name: str, method: str, when: tuple[str, str] | None = None) -> Rule:
     def rule(rows: Sequence[Row]) -> Finding:
         runs = matching(rows, method=method)
         hits = rate([bool(row.get(f"state_{name}")) for row in runs])
-        text = f"{hits}, speed {median(values(runs, f'state_speed_{name.lower()}')).text(3, 'm/s')}"
+        speed = median(values(runs, f"state_speed_{name.lower()}"))
+        text = f"{hits}, speed {speed.text(3, 'm/s', len(runs))}"
         if when:
-            text += f", {when[1]} after {median(values(runs, when[0])).text(1, 's')}"
+            text += f", {when[1]} after {median(values(runs, when[0])).text(1, 's', len(runs))}"
         return Finding(text, verdict(hits.value == 1.0, hits.value >= 0.5))
 
     return rule
+
+
+def without_gait(name: str) -> Rule:
+    """No run of a baseline, at any setting, trots in a state; less than half of them is 'partly'.
+
+    In S2 only runs count that had the trot at the break.
+    """
+
+    def rule(rows: Sequence[Row]) -> Finding:
+        def of(label: str) -> Finding:
+            runs = matching(rows, method=label)
+            runs = matching(runs, state_S1=True) if name == "S2" else runs
+            hits = rate([bool(row.get(f"state_{name}")) for row in runs])
+            speed = median(values(runs, f"state_speed_{name.lower()}"))
+            text = f"trots in {hits}, speed {speed.text(3, 'm/s', len(runs))}"
+            if hits.trials < MIN_SEEDS:
+                return Finding(text, FEW)
+            return Finding(text, verdict(hits.successes == 0, hits.value < 0.5))
+
+        found = [of(label) for label in RIVALS]
+        texts = (f"{contender(m).name}: {f.measured}" for m, f in zip(RIVALS, found, strict=True))
+        return Finding("; ".join(texts), of_told([f.verdict for f in found]))
+
+    return rule
+
+
+def gamma_by_itself(rows: Sequence[Row]) -> Finding:
+    """With all feedback kept gamma falls to half or less when the couplings are on, in the median.
+
+    To four fifths is 'partly'. With less feedback kept the fall is imposed and proves nothing.
+    """
+    texts, ratios = [], []
+    for label in ("apnc", "apnc_kept"):
+        runs = [row for row in matching(rows, method=label) if is_number(row.get(GAMMA[1]))]
+        before, after = (median(values(runs, column)).value for column in GAMMA)
+        ratios = [row[GAMMA[1]] / row[GAMMA[0]] for row in runs if row[GAMMA[0]] > 0.0]
+        fall = f"{before:.3f} to {after:.3f}" if runs else "-"
+        texts.append(f"{contender(label).name}: {fall}, n = {len(runs)}")
+    text = f"imposed in APNC by feedback_kept; {'; '.join(texts)}"
+    if len(ratios) < MIN_SEEDS:
+        return Finding(text, FEW)
+    ratio = median(ratios)
+    return Finding(
+        f"{text}, ratio {ratio.text(2)}", verdict(ratio.value <= 0.5, ratio.value <= 0.8)
+    )
 
 
 def table(rows: Sequence[Row]) -> str:
     """Success per state with its exact 95 % interval, times and speeds."""
     return markdown(
         {
-            "couplings": COUPLINGS[method],
+            "couplings": COUPLINGS.get(method, contender(method).name),
             "state": name,
             "as the paper says": meaning,
             "success (95 % interval)": str(rate([bool(run.get(f"state_{name}")) for run in runs])),
             "time [s], median (range)": middle(values(runs, time), 1),
             "speed [m/s], median (range)": middle(values(runs, f"state_speed_{name.lower()}"), 3),
         }
-        for method, meanings in MEANING.items()
-        if (runs := matching(rows, method=method))
+        for method in methods_in(rows)
+        for runs, meanings in [(matching(rows, method=method), MEANING.get(method, WITH_GAIT))]
         for name, meaning, time in zip(STATES, meanings, (FORMED[0], "", BACK[0]), strict=True)
     )
 
@@ -73,12 +124,19 @@ CLAIMS: Final = (
           state("S3", "apnc", BACK)),
     Claim("3.2.3, Fig. 12A", "S3: without ANC the robot stays on the spot, legs in phase",
           state("S3", "apc"), ("apc",)),
+    Claim("3.1.4, note 5", "with broken feedback Tegotae and phase resetting lose the gait (S2)",
+          without_gait("S2"), RIVALS),
+    Claim("3.1.4, note 5", "Tegotae and phase resetting store no gait and do not recover it (S3)",
+          without_gait("S3"), RIVALS),
+    Claim("3.2.1", "once the couplings are on the feedback gain gamma becomes small by itself",
+          gamma_by_itself, ("apnc", "apnc_kept")),
 )  # fmt: skip
 
 STUDY: Final = Study(
     "states",
     TIMELINE.experiment,
-    methods=tuple(COUPLINGS),
+    methods=(*COUPLINGS, *RIVALS, "apnc_kept"),
+    seeds=fewer_of_others(),
     measure=measure,
     claims=CLAIMS,
     figures=figures,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -27,6 +28,10 @@ LAST: Final = 3.0
 """Last part of a state over which its speed is the mean [s]."""
 
 
+AROUND: Final = 2.0
+"""Time before the couplings switch on, and before the break, over which gamma is the mean [s]."""
+
+
 def measure(record: Record) -> Row:
     """What became of the gait; of a run that ended early no state went as the paper says."""
     if record.complete and record.ended_at >= TIMELINE.end:
@@ -40,11 +45,14 @@ def measure(record: Record) -> Row:
 
 
 def as_paper_says(found: Row, method: str) -> Row:
-    """Whether S1, S2 and S3 went as in Fig. 10-12, with (apnc) or without the couplings."""
-    s2, s3 = found["front_stopped"], found["in_phase"] and abs(found["speed_s3"]) <= ROOTED
-    if method == "apnc":
-        s2 = found["kept"] and found["speed_s2"] >= WALKS
-        s3 = found["recovered"] and found["speed_s3"] >= WALKS
+    """Whether S1, S2 and S3 went as in Fig. 10-12; ``apc`` is without, all else with couplings.
+
+    A baseline is judged like the controller with couplings: does it keep and recover the gait?
+    """
+    s2 = found["kept"] and found["speed_s2"] >= WALKS
+    s3 = found["recovered"] and found["speed_s3"] >= WALKS
+    if method == "apc":
+        s2, s3 = found["front_stopped"], found["in_phase"] and abs(found["speed_s3"]) <= ROOTED
     return {"S1": found["formed"], "S2": s2, "S3": s3}
 
 
@@ -61,7 +69,9 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Row:
         ``in_phase``: S3: all legs within 0.6 rad of each other in the last second;
         ``speed_s1``, ``speed_s2``, ``speed_s3``: mean speed along the heading over the last 3 s of
         each state [m/s];
-        ``stored_at_s``: when the couplings switched on [s], None if never.
+        ``stored_at_s``: when the couplings switched on [s], None if never;
+        ``gamma_before``, ``gamma_after``: mean gain of all legs in the two seconds before that and
+        in the last two of S1 [1], None unless they switched on between these.
     """
     c, time, trot = record.controller, record.time, metrics.GAITS[4]["trot"]
 
@@ -98,4 +108,16 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Row:
         "in_phase": stays(s3, (0.0, 0.0, 0.0), last=round(record.experiment.rate)),
         **{name: float(speed[part(end - LAST, end)].mean()) for name, end in ends.items()},
         "stored_at_s": float(stored[0]) if len(stored) else None,
+        **_gamma(record, float(stored[0]) if len(stored) else math.inf, when),
     }
+
+
+def _gamma(record: Record, stored: float, when: Timeline) -> Row:
+    if not when.lowered + AROUND <= stored <= when.broken - AROUND:
+        return {"gamma_before": None, "gamma_after": None}
+    gamma, time = record.controller["gamma"], record.time
+
+    def mean(end: float) -> float:
+        return float(gamma[(time >= end - AROUND) & (time < end)].mean())
+
+    return {"gamma_before": mean(stored), "gamma_after": mean(when.broken)}

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
+from apnc import metrics
 from apnc.loop.record import Record
 from apnc.loop.steps import steps_of
-from apnc.studies.claims import NO, Claim, Finding, verdict
-from apnc.studies.rows import Row, values
+from apnc.studies.claims import FEW, MIN_SEEDS, NO, PARTLY, YES, Claim, Finding, ranks, verdict
+from apnc.studies.rows import Row, cells_in, values
 from apnc.studies.statistics import median
-from apnc.studies.steering.course import SPEED, YAW_RATE, experiment
+from apnc.studies.steering.course import SLOPES, SPEED, SPEEDS, TURNS, YAW_RATE, experiment
 from apnc.studies.steering.figures import figures, scenes
 from apnc.studies.study import Study
 
@@ -21,14 +24,15 @@ SETTLING: Final = 5.0
 
 
 def measure(record: Record) -> Row:
-    """Yaw rate [rad/s] in every section of the course of turns, else speed [m/s].
+    """Yaw rate [rad/s] in every section of the course of turns, else speed along the heading [m/s].
 
     The mean over a section after its settling; None for one that the robot did not walk to its end.
     """
     turning = isinstance(record.experiment.turn, tuple)
     steps = steps_of(record.experiment.turn if turning else record.experiment.mi)
     starts = [start for start, _ in steps]
-    yaw, place = np.unwrap(record.plant["rpy"][:, 2]), record.plant["position"][:, :2]
+    yaw = np.unwrap(record.plant["rpy"][:, 2])
+    place = record.plant["position"]
     found: Row = {}
     for i, end in enumerate([*starts[1:], record.experiment.duration]):
         begin, name = starts[i] + SETTLING, f"{YAW_RATE if turning else SPEED}_{i + 1}"
@@ -36,41 +40,68 @@ def measure(record: Record) -> Row:
         if len(inside) < 2 or record.ended_at < end:
             found[name] = None
             continue
-        first, last = inside[[0, -1]]
-        way = yaw[last] - yaw[first] if turning else np.linalg.norm(place[last] - place[first])
-        found[name] = float(way / (end - begin))
+        if turning:
+            figure = (yaw[inside[-1]] - yaw[inside[0]]) / (end - begin)
+        else:
+            figure = metrics.smoothed_speed(record.time[inside], place[inside], yaw[inside]).mean()
+        found[name] = float(figure)
     return found
 
 
 def speed_steps(rows: Sequence[Row]) -> Finding:
-    """Speed doubles within a fifth with the step of MI, and comes back within 15 %."""
-    low, high, again = (median(values(rows, f"{SPEED}_{i}")) for i in (1, 2, 3))
-    text = f"{low.text(3)}, {high.text(3)}, {again.text(3, 'm/s')}"
-    if not (low.size and high.size and again.size):
-        return Finding(text, NO)
+    """Speed doubles within a fifth with the step of MI, and comes back within 15 %.
+
+    Faster at the higher MI is 'partly'.
+    """
+    runs = matching(rows, course="speeds")
+    low, high, again = (median(values(runs, f"{SPEED}_{i}")) for i in (1, 2, 3))
+    text = ", ".join(each.text(3, "m/s", len(runs)) for each in (low, high, again))
+    if min(low.size, high.size, again.size) < MIN_SEEDS:
+        return Finding(text, FEW)
     doubled = 1.6 <= high.value / low.value <= 2.4
     back = abs(again.value / low.value - 1.0) <= 0.15
     return Finding(text, verdict(doubled and back, high.value > low.value))
 
 
 def turns(rows: Sequence[Row]) -> Finding:
-    """The intervals of the yaw rate are below 0 to the right and above 0 to the left."""
-    right, left = (median(values(rows, f"{YAW_RATE}_{i}")) for i in (2, 3))
-    text = f"right {right.text(2)}, left {left.text(2, 'rad/s')}"
-    # without a number every comparison is false
+    """The intervals of the yaw rate are below 0 to the right and above 0 to the left.
+
+    Less to the left on the way to the right is 'partly'.
+    """
+    runs = matching(rows, course="turns")
+    right, left = (median(values(runs, f"{YAW_RATE}_{i}")) for i in (2, 3))
+    text = f"right {right.text(2, 'rad/s', len(runs))}, left {left.text(2, 'rad/s', len(runs))}"
+    if min(right.size, left.size) < MIN_SEEDS:
+        return Finding(text, FEW)
     return Finding(text, verdict(right.high < 0.0 < left.low, right.value < left.value))
+
+
+def slopes_speed(rows: Sequence[Row]) -> Finding:
+    """Speed grows with the slopes, see ``ranks``; only up to the robot's own is 'partly'."""
+    runs = [{**row, "slopes": SLOPES[row["course"]]} for row in rows if row.get("course") in SLOPES]
+    column = f"{SPEED}_1"
+    text = ", ".join(
+        f"{median(values(runs, column, slopes=x)).text(3, 'm/s')} at {x:g}"
+        for x in cells_in(runs, "slopes")
+    )
+    every = ranks(runs, column, "slopes", 1, ("apnc",))
+    lower = ranks([r for r in runs if r["slopes"] <= 1.0], column, "slopes", 1, ("apnc",))
+    found = PARTLY if (every.verdict, lower.verdict) == (NO, YES) else every.verdict
+    return Finding(f"{every.measured}; {text}", found)
 
 
 CLAIMS: Final = (
     Claim("3.3, Fig. 13", "MI 0.15, 0.4, 0.15: from about 0.08 to 0.16 m/s and back", speed_steps),
+    Claim("3.3", "steeper slopes of the motor neurons walk faster", slopes_speed),
     Claim("3.3, Fig. 14", "steeper slopes on one side turn the robot to the other", turns),
 )
 
 STUDY: Final = Study(
     "steering",
     experiment,
-    {"course": ("speeds", "turns")},
+    {"course": ("speeds", "turns", *SLOPES)},
     methods=("apnc",),
+    seeds=lambda cell, trials: math.ceil(trials / 2) if cell["course"] in SLOPES else trials,
     measure=measure,
     claims=CLAIMS,
     figures=figures,

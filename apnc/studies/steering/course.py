@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 from apnc.loop.experiment import Experiment
@@ -17,7 +18,20 @@ TURNS: Final[Steps[float]] = ((0.0, 0.0), (20.0, -1.0), (35.0, 1.0), (50.0, 0.0)
 SPEED, YAW_RATE = "speed_section", "yaw_rate_section"
 
 
+SLOPES: Final = {f"slopes x {factor:g}": factor for factor in (0.6, 0.8, 1.0, 1.2, 1.4)}
+"""Factor on both slopes of the motor neurons, by course: straight walks."""
+
+SLOPES_S: Final = 25.0
+"""Length of these walks [s]."""
+
+
 def experiment(method: str, seed: int, course: str) -> Experiment:
     """A walk along a course."""
-    mi, turn = (SPEEDS, 0.0) if course == "speeds" else (COURSE_MI, TURNS)
-    return Experiment(method=method, seed=seed, mi=mi, turn=turn, duration=60.0)
+    walk = Experiment(method=method, seed=seed, mi=COURSE_MI, duration=60.0)
+    if course == "speeds":
+        return replace(walk, mi=SPEEDS)
+    if course == "turns":
+        return replace(walk, turn=TURNS)
+    own = walk.parameters()
+    slopes = {name: SLOPES[course] * float(own[name]) for name in ("a1", "a2")}  # type: ignore[arg-type]  # plain numbers
+    return replace(walk, settings=slopes, duration=SLOPES_S)

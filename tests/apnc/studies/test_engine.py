@@ -16,10 +16,11 @@ from typing import Any
 
 import pytest
 
-from apnc.studies import engine
+from apnc.studies import contenders, engine
+from apnc.studies.contenders import CONTENDERS
 from apnc.studies.engine import run_study, run_trial
 from apnc.studies.rows import Row
-from apnc.studies.store import Store
+from apnc.studies.store import Store, place_of
 from apnc.studies.study import Study, Trial
 from build_fmu.build import host_fmu
 from exudyn_models.robot import ROBOTS
@@ -30,7 +31,7 @@ SHORT: dict[str, Any] = {"trials": 1, "duration": 1.0, "chosen": {"mi": [0.08]}}
 def quick(trial: Trial, series: Path | None = None) -> Row:
     """A row without a run."""
     rest = {"version": "0", "fell": False, "end": "complete", "error": ""}
-    return {"study": trial.study, "key": trial.place[1], **trial.cell, **rest}
+    return {"study": trial.study, "key": trial.place[-1], **trial.cell, **rest}
 
 
 @pytest.fixture
@@ -39,7 +40,7 @@ def no_runs(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     asked: list[str] = []
 
     def work(trial: Trial, series: Path | None = None) -> Row:
-        asked.append(trial.place[1])
+        asked.append(trial.place[-1])
         return quick(trial)
 
     monkeypatch.setattr(engine, "run_trial", work)
@@ -142,11 +143,11 @@ def test_resume_runs_rows_with_an_error_again(
     with monkeypatch.context() as context:
         context.setattr(engine, "run_trial", broken)
         first = run_study("damage", output=tmp_path, trials=1)
-    assert [row["error"] for row in first] == ["RuntimeError: moo", "", ""]
+    assert [row["error"] for row in first] == ["RuntimeError: moo", *[""] * 4]
     rows = run_study("damage", output=tmp_path, trials=1, resume=True)
     assert no_runs == [first[0]["key"]]
-    assert [row["error"] for row in rows] == ["", "", ""]
-    assert len(lines(tmp_path)) == 4  # the last line of a trial counts
+    assert [row["error"] for row in rows] == [""] * 5
+    assert len(lines(tmp_path)) == 6  # the last line of a trial counts
 
 
 def test_resume_does_not_keep_rows_of_another_robot(
@@ -160,11 +161,11 @@ def test_resume_does_not_keep_rows_of_another_robot(
     file.write_text(text)
     before = run_study("damage", output=tmp_path / "out", trials=1)
     again = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
-    assert again == before and len(no_runs) == 3
+    assert again == before and len(no_runs) == 5
     friction = next(line for line in text.splitlines() if line.startswith("friction ="))
     file.write_text(text.replace(friction, "friction = 0.33"))
     after = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
-    assert len(no_runs) == 6
+    assert len(no_runs) == 10
     assert not {row["key"] for row in before} & {row["key"] for row in after}
 
 
@@ -178,9 +179,21 @@ def test_an_error_in_the_loop_loses_nothing(tmp_path: Path, no_runs: list[str]) 
     assert len(lines(tmp_path)) == 2
 
 
+def test_labels_of_one_experiment_are_rows_of_their_own(
+    monkeypatch: pytest.MonkeyPatch, no_runs: list[str]
+) -> None:
+    """The best setting of a baseline may be the paper's."""
+    paper = CONTENDERS["tegotae"].settings_in("damage")
+    best = CONTENDERS["tegotae_best"]._replace(settings=paper)
+    monkeypatch.setattr(contenders, "CONTENDERS", {**CONTENDERS, "tegotae_best": best})
+    rows = run_study("damage", trials=1, methods=["tegotae", "tegotae_best"])
+    assert [row["method"] for row in rows] == ["tegotae", "tegotae_best"]
+    assert rows[0]["key"] == rows[1]["key"]
+
+
 def test_series_are_kept_on_request(tmp_path: Path) -> None:
     (row,) = run_study("mi", methods=["apnc"], output=tmp_path, series=True, **SHORT)
-    series = tmp_path / "series" / f"mi-{row['key']}.csv"
+    series = tmp_path / "series" / f"mi-apnc-{row['key']}.csv"
     assert len(series.read_text().splitlines()) == 61
     with pytest.raises(ValueError, match="series are kept in a folder"):
         run_study("mi", series=True)
@@ -202,7 +215,7 @@ def test_rows_do_not_depend_on_workers(tmp_path: Path) -> None:
 
 
 def row(key: str, **more: Any) -> Row:
-    return {"study": "mi", "key": key, **more}
+    return {"study": "mi", "method": "apnc", "key": key, **more}
 
 
 def test_a_torn_line_is_dropped_and_the_rest_kept(tmp_path: Path) -> None:
@@ -213,7 +226,7 @@ def test_a_torn_line_is_dropped_and_the_rest_kept(tmp_path: Path) -> None:
     store.close()
     path.write_bytes(path.read_bytes()[:-4])
     store = Store(path)
-    assert store.rows == {("mi", "a"): row("a", x=1)}
+    assert store.rows == {("mi", "apnc", "a"): row("a", x=1)}
     store.add(row("b", x=2))
     store.close()
     assert [json.loads(line)["key"] for line in path.read_text().splitlines()] == ["a", "b"]
@@ -224,7 +237,7 @@ def test_a_damaged_line_costs_its_own_trial_only(tmp_path: Path) -> None:
     whole = json.dumps(row("b"))
     path.write_text(f'{{"study": "mi"\n"text"\n{{"key": "a"}}\n{whole}\n')
     store = Store(path)
-    assert list(store.rows) == [("mi", "b")]
+    assert list(store.rows) == [("mi", "apnc", "b")]
     store.close()
 
 
@@ -267,7 +280,7 @@ def test_a_killed_study_resumes_without_loss_or_repetition(tmp_path: Path) -> No
     assert 2 <= len(before) < 120
     rows = run_study("damage", trials=1, duration=1.0, output=tmp_path, resume=True)
     assert lines(tmp_path)[: len(before)] == before
-    assert len(rows) == len({row["key"] for row in rows}) == 3
+    assert len(rows) == len({place_of(row) for row in rows}) == 5
 
 
 @pytest.fixture

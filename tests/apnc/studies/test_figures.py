@@ -9,13 +9,15 @@ import pytest
 from made_up_rows import Row, made_up
 
 from apnc.report.figure import Figure
-from apnc.studies import conditions, contact, mi, sensitivity, states, steering
+from apnc.studies import conditions, contact, gains, mi, sensitivity, states, steering
 from apnc.studies.contact.measure import Trot
-from apnc.studies.plots import convergence, over_axis, side_by_side, spread, style
+from apnc.studies.contenders import CONTENDERS
+from apnc.studies.plots import convergence, over_axis, side_by_side, spread
 from apnc.studies.registry import load
 from apnc.studies.rows import AUTHORS, STRICT, methods_in
 
 AXIS = ("mi", "MI [1]")
+OLD = ("apnc", "tegotae", "phase_reset")
 
 
 def times(cell: Row) -> Row:
@@ -27,11 +29,16 @@ def times(cell: Row) -> Row:
 
 
 def of_kind(figure: Figure, kind: str, name: str) -> list[dict[str, Any]]:
-    return [trace for trace in figure.data if trace["type"] == kind and trace["name"] == name]
+    """Traces of a kind by their name, with or without the number of runs behind it."""
+    return [
+        trace
+        for trace in figure.data
+        if trace["type"] == kind and trace["name"].split(", n = ")[0] == name
+    ]
 
 
 def test_convergence_shows_times_and_the_share_of_success() -> None:
-    strict, authors = convergence(made_up({"mi": (0.08, 0.2)}, times), AXIS)
+    strict, authors = convergence(made_up({"mi": (0.08, 0.2)}, times, OLD), AXIS)
     (apnc,) = of_kind(strict, "box", "APNC")
     assert apnc["x"] == ["0.08"] * 6 + ["0.2"] * 6 and apnc["y"] == [2.0] * 12
     (tegotae,) = of_kind(strict, "box", "Tegotae")
@@ -50,14 +57,14 @@ def test_convergence_shows_times_and_the_share_of_success() -> None:
 
 
 def test_a_cell_that_was_not_run_has_no_share() -> None:
-    rows = made_up({"mi": (0.08, 0.2)}, times)
+    rows = made_up({"mi": (0.08, 0.2)}, times, OLD)
     part = [r for r in rows if r["method"] != "apnc" or r["mi"] == 0.2]
     (share,) = of_kind(convergence(part, AXIS)[0], "scatter", "APNC: success")
     assert share["y"] == [None, 100.0]
 
 
 def test_fewer_than_five_values_are_points() -> None:
-    rows = made_up({"mi": (0.08, 0.2)}, times, seeds=4)
+    rows = made_up({"mi": (0.08, 0.2)}, times, OLD, seeds=4)
     assert not [t for t in convergence(rows, AXIS)[0].data if t["type"] == "box"]
     (points,) = of_kind(convergence(rows, AXIS)[0], "scatter", "APNC")
     assert points["mode"] == "markers" and points["y"] == [2.0] * 8
@@ -69,20 +76,31 @@ def test_fewer_than_five_values_are_points() -> None:
     assert spread([], "n", "#000000") == []
 
 
-def test_colours_and_symbols_follow_the_method() -> None:
-    looks = {style(method) for method in ("apnc", "apc", "tegotae", "phase_reset")}
-    assert len({label for label, _, _ in looks}) == len({colour for _, colour, _ in looks}) == 4
-    assert style("next")[0] == "next"  # a new method shows by its name
+def test_every_contender_has_a_look_of_its_own() -> None:
+    for part in ("name", "colour", "symbol"):
+        assert len({getattr(each, part) for each in CONTENDERS.values()}) == len(CONTENDERS)
 
 
 def test_an_unknown_method_is_an_error() -> None:
-    with pytest.raises(ValueError, match="'moo'"):
+    with pytest.raises(ValueError, match="method 'moo' is not one of apnc, apc, tegotae"):
         methods_in([{"method": "moo"}])
+
+
+def test_names_tell_how_many_of_the_runs_have_the_figure() -> None:
+    strict, _ = convergence(made_up({"mi": (0.08, 0.2)}, times), AXIS)
+    names = {trace["name"] for trace in strict.data if trace["type"] != "scatter"}
+    # phase resetting has two values at one MI, which are points
+    assert names == {"APNC, n = 12", "Tegotae, n = 6 of 12"}
+    assert "phase resetting (best), n = 2 of 12" in {trace["name"] for trace in strict.data}
+    assert "Tegotae (best): success" in {trace["name"] for trace in strict.data}
+    (share,) = [t for t in strict.data if t["name"] == "Tegotae: success"]
+    (box,) = of_kind(strict, "box", "Tegotae")
+    assert share["legendgroup"] == box["legendgroup"] and share["offsetgroup"] == box["offsetgroup"]
 
 
 def test_over_axis_shows_the_column() -> None:
     figure = over_axis(
-        made_up({"mi": (0.08, 0.2)}, times), AXIS, "path_speed_m_per_s", "speed [m/s]"
+        made_up({"mi": (0.08, 0.2)}, times, OLD), AXIS, "path_speed_m_per_s", "speed [m/s]"
     )
     (apnc,) = of_kind(figure, "box", "APNC")
     assert sorted(set(apnc["y"])) == pytest.approx([0.18, 0.3])
@@ -103,7 +121,7 @@ def test_the_studies_of_the_paper_have_their_figures() -> None:
     def keys(name: str, rows: list[Row]) -> list[str]:
         return [figure.key for figure in load(name).figures(rows)]
 
-    rows = made_up({"mi": (0.08, 0.2)}, times)
+    rows = made_up({"mi": (0.08, 0.2)}, times, OLD)
     both = [STRICT, AUTHORS]
     assert keys("mi", rows) == [f"mi-{c}" for c in [*both, mi.DUTY, "path_speed_m_per_s"]]
     for name, axis in (("rate", "rate"), ("terrain", "roughness")):
@@ -134,15 +152,16 @@ def test_conditions_name_what_differs() -> None:
 
 def test_damage_shows_the_speed_of_every_method() -> None:
     speed = {"apnc": 0.1, "tegotae": 0.2, "phase_reset": 0.3}
-    rows = made_up({}, lambda c: {"path_speed_m_per_s": speed[c["method"]]}, study="damage")
+    rows = made_up({}, lambda c: {"path_speed_m_per_s": speed[c["method"]]}, OLD, study="damage")
+    rows[0]["path_speed_m_per_s"] = None
     (figure,) = load("damage").figures(rows)
     assert (figure.key, figure.title) == ("damage-speed", "Speed")
     assert figure.note == "Commands of leg RF held at 0."
     assert figure.layout["yaxis"]["title"]["text"] == "speed [m/s]"
     assert [(t["name"], t["y"][0]) for t in figure.data] == [
-        ("APNC", 0.1),
-        ("Tegotae", 0.2),
-        ("phase resetting", 0.3),
+        ("APNC, n = 5 of 6", 0.1),
+        ("Tegotae, n = 6", 0.2),
+        ("phase resetting, n = 6", 0.3),
     ]
 
 
@@ -224,13 +243,13 @@ def test_the_table_of_mi_counts_failures_and_errors() -> None:
     rows[2]["fell"] = True
     del rows[3][STRICT], rows[3][AUTHORS], rows[3]["late_speed_m_per_s"], rows[3]["fell"]
     assert mi.table(rows).splitlines()[2] == (
-        "| apnc | 0.10 | 2/4 (7 ... 93 %) | 4.0 (3.5 ... 4.5; 5.0) | 3/4 | 2.0 | "
+        "| APNC | 0.10 | 2/4 (7 ... 93 %) | 4.0 (3.5 ... 4.5; 5.0) | 3/4 | 2.0 | "
         "0.100 (0.100 ... 0.100) | 1 |"
     )
 
 
 def test_the_table_of_mi_has_a_line_per_method_and_mi() -> None:
-    lines = mi.table(made_up({"mi": (0.2, 0.08)}, times)).splitlines()
+    lines = mi.table(made_up({"mi": (0.2, 0.08)}, times, OLD)).splitlines()
     assert lines[:2] == [
         "| method | MI | trot kept, strict (95 % interval) | "
         "strict time [s], median (quartiles; longest) | authors' criterion | "
@@ -238,8 +257,8 @@ def test_the_table_of_mi_has_a_line_per_method_and_mi() -> None:
         "| --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     lines = lines[2:]
-    assert [line[2:17] for line in lines[:2]] == ["apnc | 0.08 | 6", "apnc | 0.20 | 6"]
-    assert lines[2].startswith("| tegotae | 0.08 | 0/6 (0 ... 46 %) | - | 6/6 | 1.0 | - | 0 |")
+    assert [line[2:17] for line in lines[:2]] == ["APNC | 0.08 | 6", "APNC | 0.20 | 6"]
+    assert lines[2].startswith("| Tegotae | 0.08 | 0/6 (0 ... 46 %) | - | 6/6 | 1.0 | - | 0 |")
     assert len(lines) == 6
 
 
@@ -257,6 +276,73 @@ def test_the_table_of_sensitivity_shows_what_did_not_form() -> None:
     assert sensitivity.table(rows).splitlines()[2] == (
         "| nothing | 3.2, - | 0.050 | 3.2, - | 0.050 | 2/4 |"
     )
+
+
+def test_the_duty_factor_is_shown_of_what_walked_at_more_mi() -> None:
+    def figures(cell: Row) -> Row:
+        return {"duty_factor_mean": 0.5 + cell["mi"], "path_speed_m_per_s": 0.05}
+
+    cells = {"change": ("nothing", "P x 0.8", sensitivity.SOFT), "mi": (0.08, 0.16, 0.24)}
+    every = made_up(cells, figures, methods=("apnc",), seeds=1, study="sensitivity")
+    assert "duty" not in sensitivity.table(every)
+    rows = [r for r in every if r["mi"] < 0.2 or r["change"] != "P x 0.8"]
+    changes, duty = sensitivity.table(rows).split("\n\n")
+    assert "MI 0.24" not in changes and len(changes.splitlines()) == 5
+    assert duty.splitlines()[2].startswith("| nothing | 0.58 (0.58 ... 0.58) | 0.050 (0.050")
+    assert [line.split(" | ")[0] for line in duty.splitlines()[2:]] == [
+        "| nothing",
+        f"| {sensitivity.SOFT}",
+    ]
+
+
+def gain_rows() -> list[Row]:
+    def figures(cell: Row) -> Row:
+        good = cell["gain"] == 1.0
+        return {
+            STRICT: 3.0 if good else None,
+            AUTHORS: 2.0,
+            "late_speed_m_per_s": 0.1,
+            gains.STILL: 0 if good else 4,
+        }
+
+    return made_up(
+        {"gain": (1.0, 2.0)}, figures, methods=tuple(gains.GAINS), seeds=5, study="gains"
+    )
+
+
+def test_the_table_of_gains_marks_the_best() -> None:
+    lines = gains.table(gain_rows()).splitlines()
+    assert len(lines) == 2 + 8
+    assert lines[2].startswith(
+        "| gain of Tegotae [1] | 1 | best | 5/5 | 5/5 (48 ... 100 %) | 5/5 (48 ... 100 %) | "
+        "2.0 (2.0 ... 2.0) | 0.100 (0.100 ... 0.100) | 0 | 0 |"
+    )
+    assert lines[3].startswith("| gain of Tegotae [1] | 2 |  | 0/5 |") and "| 5 | 0 |" in lines[3]
+    assert lines[6].startswith("| factor on the learning rates of APNC [1] | 1 | used | 5/5")
+    assert lines[8].startswith("| APNC, printed rates | 1 |  | 5/5")
+    used = CONTENDERS["tegotae_best"].settings["gamma_tegotae"]
+    rows = [row | {"gain": used * row["gain"]} for row in gain_rows()]
+    assert f"| {used:g} | best, used | 5/5" in gains.table(rows)
+
+
+def test_gains_have_figures_per_method_and_criterion() -> None:
+    figures = gains.STUDY.figures(gain_rows())
+    assert [figure.key for figure in figures] == [
+        f"gains-{label}-{column}"
+        for label in ("tegotae", "phase_reset", "apnc")
+        for column in (STRICT, AUTHORS)
+    ]
+    assert figures[0].layout["xaxis"]["title"]["text"] == "gain of Tegotae [1]"
+    assert {t["name"].split(",")[0] for t in figures[0].data} == {"Tegotae", "Tegotae: success"}
+    assert "APNC, printed rates, n = 5 of 10" in {t["name"] for t in figures[4].data}
+
+
+def test_baselines_in_the_states_are_judged_by_the_trot() -> None:
+    def figures(cell: Row) -> Row:
+        return {"state_S1": True, "state_S2": cell["seed"] == 0, "state_S3": False}
+
+    text = states.table(made_up({}, figures, methods=("tegotae_best",), study="states"))
+    assert "| Tegotae (best) | S2 | keeps the trot and walks | 1/6 (0 ... 64 %) | - | - |" in text
 
 
 def test_contact_shows_error_and_chatter_over_the_step() -> None:

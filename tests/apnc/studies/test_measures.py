@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from records import TROT, outputs, synthetic_record
 
 from apnc.loop.record import End, Record
-from apnc.studies import contact, steering
+from apnc.studies import contact, gains, steering, symmetry
 from apnc.studies.contact.measure import Trot, chatter, errors, touch_down
 from apnc.studies.engine import measured
 from apnc.studies.rows import Row
@@ -133,6 +133,21 @@ def test_never_stored() -> None:
     assert judge(states_record(stored=99.0))["stored_at_s"] is None
 
 
+def test_gamma_is_the_mean_before_the_couplings_and_at_the_end_of_s1() -> None:
+    record = states_record(stored=6.0)
+    t = record.time
+    by_time = np.select([t < 4, t < 6, t < 12, t < 14], [9.0, 0.3, 9.0, 0.1], 9.0)
+    gamma = by_time[:, None] * np.array([0.0, 1.0, 1.0, 2.0])
+    found = judge(replace(record, controller={**record.controller, "gamma": gamma}))
+    assert (found["gamma_before"], found["gamma_after"]) == pytest.approx((0.3, 0.1))
+
+
+@pytest.mark.parametrize("stored", [3.6, 12.1, 99.0])
+def test_without_two_seconds_on_either_side_gamma_is_not_told(stored: float) -> None:
+    found = judge(states_record(stored=stored))
+    assert found["gamma_before"] is None and found["gamma_after"] is None
+
+
 BASE: Row = {
     "formed": True,
     "kept": True,
@@ -153,6 +168,9 @@ BASE: Row = {
         ("apnc", {"speed_s3": 0.03, "speed_s2": 0.029}, (True, False, True)),
         ("apnc", {"speed_s3": 0.03, "recovered": False}, (True, True, False)),
         ("apnc", {"speed_s3": 0.029}, (True, True, False)),
+        ("tegotae", {"speed_s3": 0.03}, (True, True, True)),
+        ("tegotae", {"speed_s3": 0.03, "kept": False}, (True, False, True)),
+        ("phase_reset", {"recovered": False}, (True, True, False)),
         ("apc", {}, (True, True, True)),
         ("apc", {"formed": False}, (False, True, True)),
         ("apc", {"front_stopped": False}, (True, False, True)),
@@ -227,10 +245,29 @@ def test_speed_is_that_of_each_section_after_five_seconds() -> None:
     speed = np.select([t < 5, t < 25, t < 30, t < 40, t < 45], [9.0, 0.08, 9.0, 0.16, 9.0], 0.1)
     way = np.cumsum(speed) / 60.0
     position = np.column_stack([0.6 * way, 0.8 * way, 5 * np.sin(t)])
-    row = steering.measure(on_course("speeds", {"position": position}))
+    rpy = np.column_stack([0 * t, 0 * t, 0 * t + np.arctan2(0.8, 0.6)])
+    row = steering.measure(on_course("speeds", {"position": position, "rpy": rpy}))
     found = [row[f"speed_section_{i}"] for i in (1, 2, 3)]
     assert found == pytest.approx([0.08, 0.16, 0.1], rel=0.01)
     assert len(row) == 3
+
+
+def test_a_robot_that_walks_in_a_circle_has_its_speed() -> None:
+    """At its end it is where it began: the way there and back is no distance."""
+    t = synthetic_record(60.0).time
+    turn = 2 * np.pi / 10.0  # rad/s, once round in a section after its settling
+    yaw = turn * t
+    place = 0.1 / turn * np.column_stack([np.sin(yaw), -np.cos(yaw), 0 * t])
+    rpy = np.column_stack([0 * t, 0 * t, np.angle(np.exp(1j * yaw))])
+    row = steering.measure(on_course("speeds", {"position": place, "rpy": rpy}))
+    assert [row[f"speed_section_{i}"] for i in (1, 2, 3)] == pytest.approx([0.1] * 3, rel=0.03)
+
+
+def test_a_walk_on_other_slopes_has_one_section() -> None:
+    row = steering.measure(
+        replace(synthetic_record(25.0), experiment=steering.experiment("apnc", 0, "slopes x 0.8"))
+    )
+    assert row == {"speed_section_1": pytest.approx(0.08, rel=0.01)}
 
 
 def test_a_section_not_walked_to_its_end_has_no_speed() -> None:
@@ -239,6 +276,85 @@ def test_a_section_not_walked_to_its_end_has_no_speed() -> None:
     assert row["speed_section_2"] is None and row["speed_section_3"] is None
     row = steering.measure(on_course("turns", {}, ended=1.0))
     assert set(row.values()) == {None}
+
+
+# --- gains and symmetry ------------------------------------------------------------------------
+
+
+def test_an_oscillator_that_hardly_moves_at_the_end_has_stopped() -> None:
+    base = synthetic_record(20.0)
+    late = base.time >= 16.0
+    o1 = base.controller["o1"].copy()
+    o1[late, 0], o1[late, 2] = 0.5, 0.1 * o1[late, 2]
+    record = replace(base, controller={**base.controller, "o1": o1})
+    assert gains.measure(base) == {gains.STILL: 0}
+    assert gains.measure(record) == {gains.STILL: 2}
+    o1[base.time >= 18.5, 0] = -0.5  # moves within the last three seconds
+    assert gains.measure(record) == {gains.STILL: 1}
+
+
+def setting_rows(
+    *by_gain: tuple[float, int, float, float],
+) -> list[Row]:
+    """Gain, strict formations of four, authors' time and speed."""
+    return [
+        {
+            "gain": gain,
+            "convergence_time_s": 30.0 if seed < strict else None,
+            "convergence_time_authors_s": time,
+            "late_speed_m_per_s": speed,
+            "fell": False,
+        }
+        for gain, strict, time, speed in by_gain
+        for seed in range(4)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("by_gain", "best"),
+    [
+        (((0.1, 3, 9.0, 0.1), (0.2, 4, 20.0, 0.1), (0.3, 2, 1.0, 0.1)), 0.2),  # most in the trot
+        (((0.1, 4, 9.0, 0.1), (0.2, 4, 2.0, 0.1), (0.3, 4, 3.0, 0.1)), 0.2),  # then the first
+        (((0.1, 4, 2.0, 0.029), (0.2, 1, 9.0, 0.03)), 0.2),  # one that stands does not count
+        (((0.3, 4, 2.0, 0.1), (0.1, 4, 2.0, 0.1)), 0.1),  # then the weaker
+        (((0.1, 0, 2.0, 0.1), (0.2, 4, 2.0, 0.0)), 0.1),  # none walks in the strict trot
+        (((0.1, 4, 2.0, 0.0), (0.2, 4, 2.0, 0.02)), None),  # none walks at all
+        ((), None),
+    ],
+)
+def test_the_best_setting(
+    by_gain: tuple[tuple[float, int, float, float], ...], best: float | None
+) -> None:
+    assert gains.best_setting(setting_rows(*by_gain)) == best
+
+
+def test_a_run_that_fell_or_has_no_figures_is_no_walk() -> None:
+    rows = setting_rows((0.1, 4, 2.0, 0.1))
+    rows[0]["fell"] = True
+    rows[1] = {"gain": 0.1, "error": "moo"}
+    assert gains.walks(rows) == 2
+
+
+def test_without_a_strict_trot_the_most_by_the_authors_criterion_are_best() -> None:
+    rows = setting_rows((0.1, 0, 1.0, 0.1), (0.2, 0, 9.0, 0.1))
+    rows[0]["convergence_time_authors_s"] = None
+    assert gains.best_setting(rows) == 0.2
+
+
+def test_never_is_later_than_any_time() -> None:
+    rows = setting_rows((0.1, 0, 40.0, 0.1), (0.2, 0, 5.0, 0.1))
+    for standing, without in zip(rows[:3], rows[4:7], strict=True):  # one walk of each is left
+        standing["late_speed_m_per_s"] = 0.0
+        without["convergence_time_authors_s"] = None
+    assert gains.best_setting(rows) == 0.1
+
+
+def test_legs_part_when_one_leaves_the_phase_of_another() -> None:
+    assert symmetry.measure(synthetic_record(20.0))["parted_at_s"] == pytest.approx(0.0)
+    later = states_record(((0.0, PRONK), (5.0, TROT)))
+    # the phases are smoothed over 1.5 s
+    assert symmetry.measure(later)["parted_at_s"] == pytest.approx(5.0, abs=0.8)
+    assert symmetry.measure(states_record(((0.0, PRONK),)))["parted_at_s"] is None
 
 
 # --- contact -----------------------------------------------------------------------------------

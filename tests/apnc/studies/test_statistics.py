@@ -6,7 +6,16 @@ import math
 
 import pytest
 
-from apnc.studies.statistics import Comparison, compare, holm, median, rank_correlation, rate
+from apnc.studies.statistics import (
+    Comparison,
+    compare,
+    compare_rates,
+    compare_spread,
+    holm,
+    median,
+    rank_correlation,
+    rate,
+)
 
 
 def test_rate_interval_is_exact() -> None:
@@ -52,6 +61,9 @@ def test_median_as_text() -> None:
     assert median([]).text() == "-"
     assert median([0.125]).text(2, "m/s") == "0.12 (0.12 ... 0.12) m/s"
     assert median([1.0]).text() == "1.00 (1.00 ... 1.00)"
+    assert median([1.0]).text(1, "s", 1) == "1.0 (1.0 ... 1.0) s, n = 1"
+    assert median([1.0]).text(1, "s", 20) == "1.0 (1.0 ... 1.0) s, n = 1 of 20"
+    assert median([]).text(runs=20) == "-, n = 0 of 20"
 
 
 def test_effect_is_signed_and_complete() -> None:
@@ -84,6 +96,24 @@ def test_too_few_to_correlate(x: list[float], y: list[float]) -> None:
 
 def test_three_pairs_are_enough() -> None:
     assert rank_correlation([1, 2, 2], [1, 2, 2]) is not None
+
+
+def test_rates_differ_by_fishers_exact_test() -> None:
+    # all of 5 against none of 5: two of the C(10, 5) tables are as far apart
+    test = compare_rates(rate([True] * 5), rate([False] * 5))
+    assert test == (pytest.approx(2 / 252), -1.0)
+    assert compare_rates(rate([True, False]), rate([True, False])) == (1.0, 0.0)
+    assert compare_rates(rate([]), rate([True])) == (1.0, 0.0)
+
+
+def test_spread_is_that_around_the_median() -> None:
+    wide, narrow = [0.0, 5.0, 10.0, 15.0, 20.0], [9.0, 9.5, 10.0, 10.5, 11.0]
+    test = compare_spread(narrow, wide)
+    assert test.p < 0.05 and test.effect == pytest.approx(9 / 11)  # ten times as wide
+    assert compare_spread(wide, narrow).effect == pytest.approx(-9 / 11)
+    shifted = [value + 100.0 for value in narrow]
+    assert compare_spread(narrow, shifted) == (pytest.approx(1.0), pytest.approx(0.0))
+    assert compare_spread([1.0, 1.0], [1.0, 1.0]) == (1.0, 0.0)
 
 
 def test_holm_steps_down() -> None:

@@ -1,0 +1,234 @@
+"""Section 4.1: how strong should the feedback be? From too weak to too strong, in each controller.
+
+It is also how the best setting of each baseline is chosen, see ``best_setting``: what is chosen
+stands in ``contenders``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Final
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
+from apnc.report.figure import Figure
+from apnc.studies.claims import (
+    FEW,
+    MIN_SEEDS,
+    SIGNIFICANT,
+    Claim,
+    Finding,
+    both_criteria,
+    each_of,
+    verdict,
+)
+from apnc.studies.contenders import CONTENDERS, contender
+from apnc.studies.plots import convergence
+from apnc.studies.rows import AUTHORS, STRICT, Row, cells_in, is_number, matching, successes, values
+from apnc.studies.states.measure import STOPPED, WALKS
+from apnc.studies.statistics import compare, median, rate
+from apnc.studies.study import WALK_MI, WALK_S, Study
+from apnc.studies.table import markdown, middle
+from apnc_core.variables import row as row_of
+
+GAINS: Final[Mapping[str, tuple[float, ...]]] = {
+    "tegotae": (0.015, 0.03, 0.06, 0.09, 0.12, 0.15, 0.2, 0.3, 0.45),
+    "phase_reset": (0.1, 0.2, 0.4, 0.6, 0.8, 1.2, 1.6),
+    "apnc": (0.01, 0.1, 0.3, 1.0, 3.0, 10.0),
+    "apnc_printed": (1.0,),
+}
+"""Tegotae's gain, the threshold of the phase reset, a factor on the learning rates of APNC.
+
+Rates end at their limit of 1; the printed ones are no factor of the robot's own.
+"""
+
+PARAMETERS: Final = {"tegotae": "gamma_tegotae", "phase_reset": "grf_reset"}
+"""What is varied of a baseline."""
+
+TITLES: Final = {
+    "tegotae": "gain of Tegotae [1]",
+    "phase_reset": "threshold of the phase reset over a quarter of the weight [1]",
+    "apnc": "factor on the learning rates of APNC [1]",
+}
+
+RATES: Final = ("B_f", "B_s")
+LATE_SPEED, STILL = "late_speed_m_per_s", "stopped_oscillators"
+
+LAST: Final = 3.0
+"""End of a walk over which an oscillator that does not move has stopped [s]."""
+
+
+def experiment(method: str, seed: int, mi: float, gain: float) -> Experiment:
+    """A walk at a gain; a factor of 1 leaves the learning rates as the contender has them."""
+    walk = Experiment(method=method, seed=seed, mi=mi, duration=WALK_S)
+    if method in PARAMETERS:
+        return replace(walk, settings={PARAMETERS[method]: gain})
+    if gain == 1.0:
+        return walk
+    own = walk.parameters()
+    return replace(walk, settings={name: _scaled(name, own[name], gain) for name in RATES})
+
+
+def _scaled(name: str, value: Any, factor: float) -> float:
+    limit = row_of(name).max
+    assert limit is not None
+    return min(factor * float(value), limit)
+
+
+def seeds(cell: Mapping[str, Any], trials: int) -> int:
+    """A quarter of the seeds at the gains that the method has."""
+    return -(-trials // 4) if cell["gain"] in GAINS[cell["method"]] else 0
+
+
+def measure(record: Record) -> Row:
+    """How many oscillators do not move at the end."""
+    late = record.controller["o1"][record.time >= record.ended_at - LAST]
+    if len(late) == 0:
+        return {STILL: None}
+    return {STILL: int((np.ptp(late, axis=0) < STOPPED).sum())}
+
+
+def best_setting(rows: Sequence[Row]) -> float | None:
+    """The gain with the most walks in the strict trot; of equal ones that which forms it first.
+
+    A walk counts if the gait formed by the criterion, the robot did not fall and it goes at
+    0.03 m/s or more at the end. Of gains with as many by the strict criterion, the one with most
+    by the authors'; then the one with the lowest median of the authors' time, a run without one
+    counting as never; then the smaller one.
+
+    Args:
+        rows: of one method, with as many runs at every gain.
+
+    Returns:
+        The gain, None without a row or if no run counts by either criterion.
+    """
+
+    def merit(gain: float) -> tuple[int, int, float, float]:
+        own = matching(rows, gain=gain)
+        times = [row[AUTHORS] if is_number(row.get(AUTHORS)) else np.inf for row in own]
+        return -walks(own), -walks(own, AUTHORS), float(np.median(times)), gain
+
+    best = min(cells_in(rows, "gain"), key=merit, default=None)
+    if best is None or merit(best)[:2] == (0, 0):
+        return None
+    return best
+
+
+def walks(rows: Sequence[Row], criterion: str = STRICT) -> int:
+    """How many runs end walking, after the gait formed by a criterion."""
+    fast = (is_number(row.get(LATE_SPEED)) and row[LATE_SPEED] >= WALKS for row in rows)
+    return sum(a and b for a, b in zip(successes(rows, criterion), fast, strict=True))
+
+
+def _reference(rows: Sequence[Row], label: str) -> float | None:
+    """The gain that others are held against: the best of a baseline, the shipped one of APNC."""
+    return best_setting(rows) if label in PARAMETERS else 1.0
+
+
+def too_strong(rows: Sequence[Row]) -> Finding:
+    """At the strongest gain an oscillator has stopped in half of the runs, at the best in none.
+
+    In some runs is 'partly'.
+    """
+
+    def of(label: str) -> Finding:
+        own = matching(rows, method=label)
+        good, most = _reference(own, label), max(cells_in(own, "gain"))
+        at_best, at_most = (
+            rate([number > 0 for number in values(own, STILL, gain=gain)]) for gain in (good, most)
+        )
+        text = f"stopped in {at_most} at {most:g}, in {at_best} at {_text(good)}"
+        if good in (None, most) or min(at_best.trials, at_most.trials) < MIN_SEEDS:
+            return Finding(text, FEW)
+        none = at_best.successes == 0
+        return Finding(text, verdict(none and at_most.value >= 0.5, none and at_most.value > 0))
+
+    return each_of(("tegotae", "apnc"), of)
+
+
+def too_weak(rows: Sequence[Row], column: str) -> Finding:
+    """At the weakest gain the gait forms significantly later than at the best; never is latest."""
+
+    def of(label: str) -> Finding:
+        own = matching(rows, method=label)
+        good, least = _reference(own, label), min(cells_in(own, "gain"))
+        weak, best = (matching(own, gain=gain) for gain in (least, good))
+        times = [[r.get(column) or r["duration"] for r in part] for part in (weak, best)]
+        test = compare(*times)
+        shown = (median(values(part, column)).text(1, "s", len(part)) for part in (weak, best))
+        text = f"{next(shown)} at {least:g}, {next(shown)} at {_text(good)}, p = {test.p:.1e}"
+        if good in (None, least) or min(len(part) for part in times) < MIN_SEEDS:
+            return Finding(text, FEW)
+        return Finding(text, verdict(test.effect > 0 and test.p <= SIGNIFICANT, False))
+
+    return each_of(("tegotae", "apnc"), of)
+
+
+def _text(gain: float | None) -> str:
+    return "-" if gain is None else f"{gain:g}"
+
+
+def table(rows: Sequence[Row]) -> str:
+    """A line per method and gain; the best of a baseline is marked."""
+    lines = []
+    for label in (label for label in GAINS if matching(rows, method=label)):
+        own = matching(rows, method=label)
+        best = best_setting(own) if label in PARAMETERS else None
+        lines += [_line(label, gain, own, gain == best) for gain in cells_in(own, "gain")]
+    return markdown(lines)
+
+
+def _line(label: str, gain: float, rows: Sequence[Row], best: bool) -> dict[str, str]:
+    own = matching(rows, gain=gain)
+    used = _reference(rows, label) if label == "apnc" else None
+    names = [PARAMETERS[label]] if label in PARAMETERS else []
+    for rival in CONTENDERS.values() if names else ():
+        used = gain if rival.settings.get(names[0]) == gain else used
+    marks = ["best"] * best + ["used"] * (used == gain)
+    return {
+        "what": TITLES.get(label, contender(label).name),
+        "value": f"{gain:g}",
+        "": ", ".join(marks),
+        "walks in the strict trot": f"{walks(own)}/{len(own)}",
+        "strict": str(rate(successes(own))),
+        "authors' criterion": str(rate(successes(own, AUTHORS))),
+        "authors' time [s]": middle(values(own, AUTHORS), 1),
+        "speed [m/s]": middle(values(own, LATE_SPEED), 3),
+        "runs with a stopped oscillator": str(sum(n > 0 for n in values(own, STILL))),
+        "fell": str(len(matching(own, fell=True))),
+    }
+
+
+def figures(rows: Sequence[Row]) -> list[Figure]:
+    """Times and success over the gain, by method and criterion."""
+    found = []
+    for label, title in TITLES.items():
+        own = [row for row in rows if contender(row["method"]).method == label]
+        found += [
+            replace(figure, key=figure.key.replace("gains", f"gains-{label}", 1))
+            for figure in (convergence(own, ("gain", title)) if own else [])
+        ]
+    return found
+
+
+CLAIMS: Final = (
+    Claim("4.1", "too strong an inhibition stops the oscillators",
+          too_strong, ("tegotae", "apnc")),
+    Claim("4.1", "with too weak an inhibition the gait forms very slowly",
+          both_criteria(too_weak), ("tegotae", "apnc")),
+)  # fmt: skip
+
+STUDY: Final = Study(
+    "gains",
+    experiment,
+    {"mi": (WALK_MI, 0.2), "gain": tuple(sorted({g for grid in GAINS.values() for g in grid}))},
+    methods=tuple(GAINS),
+    seeds=seeds,
+    measure=measure,
+    claims=CLAIMS,
+    figures=figures,
+    table=table,
+)
