@@ -13,7 +13,7 @@ from numbers import Integral
 from pathlib import Path
 from typing import Any, Final
 
-import apnc_core
+from apnc.loop.code import code_hash
 from apnc.loop.engines import OWN_ENGINE, check_engine
 from apnc.loop.plain import made, plain
 from apnc.loop.steps import Over, check_steps, mapped, steps_of, steps_text
@@ -219,19 +219,17 @@ class Experiment:
             raise ValueError(f"not an experiment: {error}") from None
 
     def key(self) -> str:
-        """Hash of all that a run depends on: robot, parameters, package version; 16 hex digits."""
+        """Hash of all that a run depends on: robot, parameters, code; 16 hex digits."""
         content = {
             **self.to_dict(),
             "robot": self.description,
             "parameters": self.parameters(),
             "conditions": [(t, conditions_of(c)) for t, c in steps_of(self.conditions)],
             "fmu": self.fmu and hashlib.sha256(Path(self.fmu).read_bytes()).hexdigest(),
-            "version": apnc_core.__version__,
+            "code": code_hash(),
         }
         for name in ("preset", "settings", "method"):
             del content[name]  # the parameters say it all
-        if self.engine == OWN_ENGINE:
-            del content["engine"]  # keys are those from before there was a second one
         text = json.dumps(plain(content), sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from apnc import Conditions, Experiment, Ground, load_robot
+from apnc.loop.code import code_hash
 from apnc.loop.plain import plain
 from apnc.loop.provenance import what_was_run
 from apnc_core.enumerations import Method
@@ -125,10 +126,35 @@ def test_the_key_sees_into_the_robots_file_and_the_fmu(tmp_path: Path) -> None:
     assert len(keys) == 2
 
 
-def test_the_key_sees_the_version(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_key_sees_the_code(monkeypatch: pytest.MonkeyPatch) -> None:
     before = Experiment().key()
-    monkeypatch.setattr("apnc_core.__version__", "99")
+    monkeypatch.setattr("apnc.loop.experiment.code_hash", lambda: "another")
     assert Experiment().key() != before
+
+
+@pytest.mark.parametrize(
+    ("file", "counts"),
+    [
+        ("apnc/loop/simulate.py", True),
+        ("apnc/studies/mi/__init__.py", True),
+        ("exudyn_models/robot/robots/lilibot.toml", True),
+        ("fmu_src/core/cpg.h", True),
+        ("apnc_core/__init__.py", True),  # the version
+        ("apnc/report/page.py", False),
+        ("apnc/studies/mi/figures.py", False),
+        ("apnc/notes.md", False),
+    ],
+)
+def test_an_edit_is_other_code_but_not_one_of_what_only_shows(
+    file: str, counts: bool, tmp_path: Path
+) -> None:
+    path = tmp_path / "a" / file
+    path.parent.mkdir(parents=True)
+    path.write_text("x")
+    before = code_hash(tmp_path / "a")
+    (tmp_path / "a").rename(tmp_path / "b")
+    (tmp_path / "b" / file).write_text("y")
+    assert (code_hash(tmp_path / "b") != before) == counts
 
 
 def test_the_same_parameters_said_otherwise_have_the_same_key() -> None:
@@ -145,7 +171,7 @@ def test_what_was_run_is_plain_json(change: dict[str, Any]) -> None:
     assert said["key"] == experiment.key()
     assert said["command"] == experiment.command()
     assert said["parameters"]["method"] == experiment.method
-    assert {"apnc", "exudyn", "fmpy", "numpy", "python"} <= set(said["versions"])
+    assert {"apnc", "exudyn", "code", "fmpy", "numpy", "python"} <= set(said["versions"])
     assert set(experiment.changed()) == set(change)
 
 
