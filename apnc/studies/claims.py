@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from apnc.studies.rows import AUTHORS, STRICT, Row, is_number, matching, successes, values
-from apnc.studies.statistics import compare, median, rank_correlation, rate
+from apnc.studies.statistics import compare, median, p_text, rank_correlation, rate
 
 YES, PARTLY, NO = "reproduced", "partly", "not"
 FEW, NOT_RUN = "too few trials", "not run"
@@ -74,7 +74,7 @@ def faster(fast: str, slow: str, axis: str) -> Rule:
         test = compare(a, b)
         text = (
             f"median {median(a).text(1, 's')} against {median(b).text(1, 's')}, faster in "
-            f"{wins} of {len(cells)} cells, p = {test.p:.1e}, r = {test.effect:.2f}"
+            f"{wins} of {len(cells)} cells, {p_text(test.p)}, r = {test.effect:.2f}"
         )
         return text, wins == len(cells), wins > len(cells) / 2
 
@@ -103,7 +103,7 @@ def trend(column: str, axis: str, sign: int, methods: Sequence[str], name: str) 
                 texts.append(f"{method}: too few")
                 continue
             agree += sign * test.effect > 0 and test.p <= SIGNIFICANT
-            texts.append(f"{method}: rho = {test.effect:.2f} (p = {test.p:.1e})")
+            texts.append(f"{method}: rho = {test.effect:.2f} ({p_text(test.p)})")
         text = f"rank correlation of {name}, " + "; ".join(texts)
         return Finding(text, verdict(agree == len(methods), agree > 0))
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import time
+from collections import defaultdict
 from pathlib import Path
 
 from apnc.studies.rows import Row
@@ -18,11 +20,15 @@ class Store(contextlib.ExitStack):
 
     Attributes:
         rows: by study and key; without a line that a kill has torn, which is dropped.
+        wall_s: wall time that went by before each row [s], over all runs of the study; it is in
+            the file, but not in the row: two runs give the same rows.
     """
 
     def __init__(self, path: Path | None) -> None:
         super().__init__()
         self.rows: dict[tuple[str, str], Row] = {}
+        self.wall_s: defaultdict[tuple[str, str], float] = defaultdict(float)
+        self._since = time.perf_counter()
         self._file = None
         if path is None:
             return
@@ -34,7 +40,8 @@ class Store(contextlib.ExitStack):
         for line in lines:
             with contextlib.suppress(ValueError, KeyError, TypeError):  # a damaged line
                 row = json.loads(line)
-                self.rows[row["study"], row["key"]] = row
+                self.rows[at := (row["study"], row["key"])] = row
+                self.wall_s[at] += row.pop("wall_s", 0.0)
 
     def add(self, row: Row) -> None:
         """Append a row; it is on disk when this returns.
@@ -42,10 +49,13 @@ class Store(contextlib.ExitStack):
         Raises:
             OSError: it cannot be written; the file is named.
         """
-        self.rows[row["study"], row["key"]] = row
+        before, self._since = self._since, time.perf_counter()
+        self.rows[at := (row["study"], row["key"])] = row
+        self.wall_s[at] += (wall_s := self._since - before)
         if self._file is not None:
             try:
-                self._file.write(json.dumps(row, allow_nan=False).encode() + b"\n")
+                text = json.dumps(row | {"wall_s": round(wall_s, 3)}, allow_nan=False)
+                self._file.write(text.encode() + b"\n")
                 self._file.flush()
                 os.fsync(self._file.fileno())
             except OSError as error:

@@ -11,7 +11,7 @@ from apnc.report.figure import Figure
 from apnc.studies.claims import SIGNIFICANT, Claim, Finding, Rule, verdict
 from apnc.studies.plots import over_axis, style
 from apnc.studies.rows import Row, cells_in, methods_in, values
-from apnc.studies.statistics import compare, holm
+from apnc.studies.statistics import compare, holm, p_text
 from apnc.studies.study import BASELINES, WALK_MI, WALK_S, Study
 
 METRICS: Final = {
@@ -67,7 +67,7 @@ def alike_in(condition: str) -> Rule:
     def rule(rows: Sequence[Row]) -> Finding:
         tests = [test for test in comparisons(rows) if test.condition == condition]
         alike = sum(test.p > SIGNIFICANT for test in tests)
-        texts = (f"{t.metric} against {t.method}: p = {t.p:.2g}, r = {t.effect:.2f}" for t in tests)
+        texts = (f"{t.metric} against {t.method}: {p_text(t.p)}, r = {t.effect:.2f}" for t in tests)
         return Finding("; ".join(texts), verdict(alike == len(tests) > 0, alike > 0))
 
     return rule
@@ -91,7 +91,7 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
     found, tests = [], [test for test in comparisons(rows) if test.p <= SIGNIFICANT]
     for metric, label in METRICS.items():
         differs = [
-            f"{t.condition} {style(t.method)[0]} (p = {t.p:.2g}, r = {t.effect:.2f})"
+            f"{t.condition} {style(t.method)[0]} ({p_text(t.p)}, r = {t.effect:.2f})"
             for t in tests
             if t.metric == metric
         ]

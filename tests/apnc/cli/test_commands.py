@@ -275,7 +275,7 @@ def test_a_study_is_written_and_resumed(
     more = ("--trials", "1", "--workers", "1", "--series")
     code, out, err = run(capsys, *words, *more)
     assert code == 0, err
-    assert out == "2 trials, 0 ended with an error; report: apnc-study-mi/report.html\n"
+    assert out == "2 trials, 2 complete; report: apnc-study-mi/report.html\n"
     folder = tmp_path / "apnc-study-mi"
     rows = [json.loads(line) for line in (folder / "trials.jsonl").read_text().splitlines()]
     assert [(row["mi"], row["duration"], row["method"]) for row in rows] == [
@@ -292,8 +292,11 @@ def test_a_study_is_written_and_resumed(
 def test_a_trial_that_ends_with_an_error_has_its_code(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    rows = [{"end": "fell", "error": ""}, {"end": "error", "error": "x"}]
+    ends = ["complete", "fell", "error", "fell", "diverged"]
+    rows = [{"end": end} for end in ends]
     monkeypatch.setattr("apnc.studies.engine.run_study", lambda *_, **__: rows)
     code, out, _ = run(capsys, "study", "rate", "--output", str(tmp_path))
     assert code == 1
-    assert out.startswith("2 trials, 1 ended with an error")
+    assert out.startswith(
+        "5 trials, 1 complete, 1 diverged, 1 ended with an error, 2 fell; report: "
+    )
