@@ -23,7 +23,7 @@ from apnc.cli import main as command_line
 from apnc.studies.registry import STUDIES
 from exudyn_models.robot import ROBOTS
 
-HEAVY = {"exudyn", "exudyn_models.ground", "fmpy", "joblib", "numba", "numpy", "plotly", "scipy"}
+HEAVY = {"exudyn", "exudyn_models.ground", "fmpy", "loky", "numba", "numpy", "plotly", "scipy"}
 
 
 def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
