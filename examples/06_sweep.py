@@ -2,8 +2,7 @@
 
 import csv
 import math
-
-from joblib import Parallel, delayed
+from concurrent.futures import ProcessPoolExecutor
 
 import apnc
 
@@ -25,7 +24,8 @@ def trial(mi: float, slope_deg: float) -> dict[str, object]:
 
 if __name__ == "__main__":  # the workers import this file
     cells = [(mi, slope) for mi in (0.08, 0.15) for slope in (0.0, 5.0)]
-    rows = Parallel(n_jobs=2)(delayed(trial)(*cell) for cell in cells)
+    with ProcessPoolExecutor(2) as workers:
+        rows = list(workers.map(trial, *zip(*cells, strict=True)))
     with open("sweep.csv", "w", newline="") as file:  # noqa: PTH123
         table = csv.DictWriter(file, rows[0])
         table.writeheader()

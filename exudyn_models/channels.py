@@ -6,7 +6,14 @@ from dataclasses import dataclass
 from typing import Final
 
 XYZ: Final = ("x", "y", "z")
-JOINTS: Final = ("abduction", "hip", "knee")
+JOINT_SIGNS: Final = {
+    "abduction": "moves the foot to the left",
+    "hip": "swings the foot forward",
+    "knee": "lifts the foot",
+}
+"""What a positive angle of each joint does."""
+
+JOINTS: Final = tuple(JOINT_SIGNS)
 WORLD: Final = "world: x forward at the start, y to the left, z up"
 
 
@@ -50,7 +57,8 @@ class Channel:
 
 
 _RPY: Final = "positive roll: right side down; pitch: nose down; yaw: to the left"
-_JOINT: Final = "0 in the reference pose; positive abduction: to the left; hip: forward; knee: up"
+_SIGNS: Final = "; ".join(f"{joint}: {effect}" for joint, effect in JOINT_SIGNS.items())
+_JOINT: Final = f"0 in the reference pose; positive {_SIGNS}"
 
 PLANT_CHANNELS: Final[tuple[Channel, ...]] = (
     Channel("position", "m", "trunk reference point", WORLD, False, XYZ),

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Final
 
+from apnc_core.frozen import Frozen
+
 ALL: Final = "*"
 """Stands for every leg of a robot."""
 
@@ -44,6 +46,9 @@ class Conditions:
         for name, value in numbers.items():
             if not (math.isfinite(value) and value >= 0.0):
                 raise ValueError(f"{name} is {value}; allowed: a finite number, 0 or more")
+        frozen = {"stuck": Frozen(self.stuck), "damaged": tuple(self.damaged)}
+        for name, entries in {**frozen, "dropout": tuple(self.dropout)}.items():
+            object.__setattr__(self, name, entries)
 
     def silent(self, legs: tuple[str, ...]) -> tuple[str, ...]:
         """Which of a robot's legs have a sensor that delivers 0."""

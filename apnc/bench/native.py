@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import importlib.resources
-import shutil
 import tempfile
 import time
 from pathlib import Path
-from types import TracebackType
 from typing import Final
 
 from build_fmu import sources
@@ -22,7 +21,7 @@ _FINE: Final = time.get_clock_info("process_time").resolution <= 1e-6
 _now_ns: Final = time.process_time_ns if _FINE else time.perf_counter_ns
 
 
-class NativeLoops:
+class NativeLoops(contextlib.ExitStack):
     """Loops over the core and the ``fmi2DoStep`` of any loaded FMU.
 
     Args:
@@ -32,7 +31,9 @@ class NativeLoops:
     """
 
     def __init__(self, legs: int, coupled: bool = True, libm: bool = False) -> None:
-        self._folder = Path(tempfile.mkdtemp(prefix="apnc-bench-"))
+        super().__init__()
+        made = tempfile.TemporaryDirectory(prefix="apnc-bench-", ignore_cleanup_errors=True)
+        folder = Path(self.enter_context(made))
         platform = PLATFORMS[host_platform()]
         files = sources.collect() | {
             "apnc_config.h": b"#define APNC_LIBM\n" * libm
@@ -40,9 +41,9 @@ class NativeLoops:
             "native.c": importlib.resources.files(__package__).joinpath("native.c").read_bytes(),
         }
         for name, text in files.items():
-            (self._folder / name).write_bytes(text)
-        library = self._folder / f"bench{platform.suffix}"
-        library.write_bytes(compile_library(self._folder, list(_CORE_FILES), platform))
+            (folder / name).write_bytes(text)
+        library = folder / f"bench{platform.suffix}"
+        library.write_bytes(compile_library(folder, list(_CORE_FILES), platform))
         self._library = ctypes.CDLL(str(library))
         self._library.bench_core.restype = ctypes.c_double
         self._library.bench_steps.argtypes = [
@@ -70,16 +71,3 @@ class NativeLoops:
         if status > 1:
             raise RuntimeError(f"fmi2DoStep failed with status {status}")
         return spent / n
-
-    def __enter__(self) -> NativeLoops:
-        """Use in a with statement."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Remove the compiled files."""
-        shutil.rmtree(self._folder, ignore_errors=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from rich.console import Console
@@ -13,8 +14,8 @@ def show_bench(result: dict[str, Any]) -> None:
     table = Table(box=None, padding=(0, 2))
     for heading in ("what", "time", "against", "ratio", "target"):
         table.add_column(heading, justify="left" if heading == "what" else "right")
-    for what, time_ns, against, ratio, target in _rows(result):
-        table.add_row(what, _ns(time_ns), against, f"{ratio:.2f}", target)
+    for what, time_ns, other, other_ns, ratio, target in _rows(result):
+        table.add_row(what, _ns(time_ns), f"{other}: {_ns(other_ns)}", f"{ratio:.2f}", target)
     out = Console()
     out.print(table, highlight=False)
     size = result["fmu_bytes"] / 1000
@@ -27,45 +28,17 @@ def _ns(value: float) -> str:
     return f"{value:.0f} ns" if value < 10_000 else f"{value / 1000:.1f} us"
 
 
-def _rows(result: dict[str, Any]) -> list[tuple[str, float, str, float, str]]:
-    targets = result["targets"]
-    rows = [
-        (
-            f"core, {c['legs']} legs",
-            c["core_ns"],
-            f"with libm: {_ns(c['libm_ns'])}",
-            c["ratio"],
-            f"<= {target}" if (target := targets.get(f"core_over_libm_{c['legs']}_legs")) else "",
-        )
-        for c in result["core"]
-    ]
-    step = result["do_step"]
-    rows.append(
-        (
-            "fmi2DoStep from C",
-            step["from_c_ns"],
-            f"core: {_ns(step['core_ns'])}",
-            step["ratio"],
-            f"<= {targets['do_step_over_core']}",
-        )
-    )
-    peer = result["pythonfmu"]
-    if peer is None:
-        return rows
-    return [
-        *rows,
-        (
-            "PythonFMU from C",
-            peer["from_c_ns"],
-            f"this FMU: {_ns(peer['own_from_c_ns'])}",
-            peer["ratio_from_c"],
-            f">= {targets['pythonfmu_over_do_step']}",
-        ),
-        (
-            "PythonFMU through fmpy",
-            peer["through_fmpy_ns"],
-            f"this FMU: {_ns(peer['own_through_fmpy_ns'])}",
-            peer["ratio_through_fmpy"],
-            "",
-        ),
-    ]
+def _rows(result: dict[str, Any]) -> Iterator[tuple[str, float, str, float, float, str]]:
+    """What was timed against what, their times, the ratio and its target."""
+    targets, step, peer = result["targets"], result["do_step"], result["pythonfmu"]
+    for c in result["core"]:
+        target = targets.get(f"core_over_libm_{c['legs']}_legs")
+        most = f"<= {target}" if target else ""
+        yield f"core, {c['legs']} legs", c["core_ns"], "with libm", c["libm_ns"], c["ratio"], most
+    most = f"<= {targets['do_step_over_core']}"
+    yield "fmi2DoStep from C", step["from_c_ns"], "core", step["core_ns"], step["ratio"], most
+    least = f">= {targets['pythonfmu_over_do_step']}"
+    for way, bound in (("from C", least), ("through fmpy", "")) if peer else ():
+        key = way.lower().replace(" ", "_")
+        times = peer[f"{key}_ns"], "this FMU", peer[f"own_{key}_ns"]
+        yield f"PythonFMU {way}", *times, peer[f"ratio_{key}"], bound

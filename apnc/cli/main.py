@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import codecs
 import io
 import sys
+from itertools import pairwise
 from typing import Final
 
 from apnc.cli.interrupt import INTERRUPTED, NOTHING, STOP, Interrupted
@@ -18,20 +20,36 @@ def main(arguments: list[str] | None = None) -> None:
     Exit codes: 0 done; 1 a robot that fell, a motion that diverged, a trial that failed; 2 a
     mistake of the caller, one line on stderr; 130 interrupted.
     """
+    codecs.register_error("as_shown", _as_shown)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")  # not every console shows Greek letters
+            stream.reconfigure(errors="as_shown")
     with STOP.listening():
         try:
-            code = _run(arguments)
+            code = _run(sys.argv[1:] if arguments is None else arguments)
         except Interrupted as request:
             sys.stderr.write(f"{request}\n")
             code = INTERRUPTED
     sys.exit(code)
 
 
-def _run(arguments: list[str] | None) -> int:
+def _as_shown(error: UnicodeError) -> tuple[str, int]:
+    """Not every console shows Greek letters, or knows spaces of another kind."""
+    assert isinstance(error, UnicodeEncodeError)
+    lost = error.object[error.start : error.end]
+    return "".join(" " if letter.isspace() else "?" for letter in lost), error.end
+
+
+def _refuse_empty(words: list[str]) -> None:
+    """An empty value is a mistake; an empty path would be the folder one is in."""
+    for before, word in pairwise(("argument", *words)):
+        if word == "" or (word.startswith("--") and word.endswith("=")):
+            raise ValueError(f"{(word or before).removesuffix('=')} is empty")
+
+
+def _run(arguments: list[str]) -> int:
     try:
+        _refuse_empty(arguments)
         import typer
 
         from apnc.cli.app import app

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import inspect
 import os
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Final
@@ -17,6 +18,7 @@ from apnc.cli.console import Number, Text, bar, say, writable
 from apnc.cli.interrupt import STOP, Interrupted
 from apnc.studies.registry import ALL, METHODS, STUDIES
 
+_ENDED: Final = {"error": "ended with an error"}
 _BY_NAME: Final = inspect.Parameter.KEYWORD_ONLY
 
 TRIAL_FAILED: Final = 1
@@ -69,11 +71,12 @@ def _run(
             stop=STOP,
             **options,
         )
-    failed = sum(row["end"] == "error" for row in rows)
-    say(f"{len(rows)} trials, {failed} ended with an error; report: {output}/report.html")
+    ends = Counter(row["end"] for row in rows)
+    counts = "".join(f", {count} {_ENDED.get(end, end)}" for end, count in sorted(ends.items()))
+    say(f"{len(rows)} trials{counts}; report: {output}/report.html")
     if STOP.asked:
         raise Interrupted("interrupted; --resume finishes it")
-    raise typer.Exit(TRIAL_FAILED if failed else 0)
+    raise typer.Exit(TRIAL_FAILED if ends["error"] else 0)
 
 
 for _each in STUDIES.values():

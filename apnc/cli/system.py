@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
-from typer import Option
+from typer import Context, Option
 
 from apnc.cli.console import File, Texts, say, status, writable
 
@@ -29,6 +29,7 @@ def build_plant(
 
 
 def build_system(
+    context: Context,
     output: Annotated[File, Option(help="Archive to write; Lilibot.ssp if omitted.")] = None,
     robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
@@ -37,28 +38,19 @@ def build_system(
     condition: Annotated[str, Option(help="C1 to C4, S1 to S3.")] = "C1",
     method: Annotated[str, Option(help="Controller.")] = "apnc",
     preset: Annotated[str, Option(help="robot, lilibot, paper.")] = "robot",
+    rate: Annotated[float, Option(help="Update rate [Hz].")] = 60.0,
     setting: Annotated[Texts, Option("--set", help="Parameter, NAME=VALUE; repeatable.")] = None,
     memory: Annotated[File, Option(help="Learned gait to start with.")] = None,
     duration: Annotated[float, Option(help="End of the default experiment [s].")] = 45.0,
     platform: Annotated[Texts, Option(help="Of the controller; this one if omitted.")] = None,
 ) -> None:
     """Build controller and robot, connected: an SSP archive, and a folder that OSP reads too."""
-    from apnc.loop.experiment import Experiment
-    from apnc.loop.gait import read_gait
+    from apnc.cli.walk import experiment_of
     from apnc.system.build import build_system as build
     from apnc.system.structure import system_name
-    from apnc_core.settings import parse
 
     with status("building"):
-        settings: dict[str, Any] = dict(map(parse, setting or ()))
-        experiment = Experiment(
-            robot=robot, mi=mi, seed=seed, duration=duration, method=method, preset=preset,
-            conditions=condition, settings=settings,
-        )  # fmt: skip
-        if memory:
-            legs = tuple(leg.name for leg in experiment.description.legs)
-            own = read_gait(memory).settings(legs) | settings
-            experiment = Experiment(**{**experiment.changed(), "settings": own})
+        experiment = experiment_of(context.params | {"mi": str(mi)})
         output = writable(output or Path(f"{system_name(robot)}.ssp"), file=True)
         folder = build(output, experiment, naming, tuple(platform or ()))
     say(f"{output}, and unpacked with OspSystemStructure.xml: {folder}/")

@@ -6,7 +6,7 @@ from __future__ import annotations
 import importlib.util
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
@@ -38,18 +38,6 @@ if TYPE_CHECKING:
 ENDED_EARLY: Final = 1
 """Exit code of a run that fell or diverged."""
 
-_PLAIN: Final = (
-    "robot",
-    "duration",
-    "seed",
-    "method",
-    "preset",
-    "rate",
-    "step",
-    "contact",
-    "engine",
-    "fmu",
-)
 _OVER: Final = (
     ("mi", "mi", float),
     ("turn", "turn", float),
@@ -137,34 +125,38 @@ def _log_path(mcap: Path) -> Path:
 
 
 def experiment_of(options: Mapping[str, Any]) -> Experiment:
-    """The experiment that the options of ``apnc walk`` mean; ``None`` leaves the default.
+    """The experiment that options of ``apnc walk`` mean; one left out, or None, is the default.
 
     Raises:
         ValueError: a value that is not understood or not allowed.
     """
-    given = {name: options[name] for name in _PLAIN if options[name] is not None}
+    said = {name: value for name, value in options.items() if value is not None}
+    given = {f.name: said[f.name] for f in fields(apnc.Experiment) if f.name in said}
     for name, option, convert in _OVER:
-        if options[option] is not None:
-            given[name] = parse_steps(option, options[option], convert)
-    given |= _ground(options["ground"], options["roughness"], options["slope"], options["seed"])
+        if option in said:
+            given[name] = parse_steps(option, said[option], convert)
+    given |= _ground(*map(said.get, ("ground", "roughness", "slope", "seed")))
     settings: dict[str, Any] = {}
-    if options["params"]:
+    if "params" in said:
         from apnc.loop.parameters import read_parameters
 
-        settings = read_parameters(options["params"])
+        settings = read_parameters(said["params"])
         if "Ts" in settings:
             given.setdefault("rate", 1.0 / settings.pop("Ts"))
         if "method" in settings:
             given.setdefault("method", Method(settings.pop("method")).name)
         present = apnc.Experiment(**given).parameters()
         settings = {name: value for name, value in settings.items() if value != present[name]}
-    if options["memory"]:
+    if "memory" in said:
         legs = tuple(leg.name for leg in apnc.Experiment(**given).description.legs)
-        settings |= apnc.read_gait(options["memory"]).settings(legs)
-    if options["setting"]:
+        settings |= apnc.read_gait(said["memory"]).settings(legs)
+    if "setting" in said:
+        from apnc.loop.experiment import SET_ELSEWHERE
         from apnc_core.settings import parse
 
-        settings |= dict(map(parse, options["setting"]))
+        settings |= (own := dict(map(parse, said["setting"])))
+        for name in own.keys() & SET_ELSEWHERE.keys():
+            raise ValueError(f"--set {name} is not taken; --{SET_ELSEWHERE[name]} says it")
     return apnc.Experiment(**given, settings=settings)
 
 

@@ -6,18 +6,19 @@ import hashlib
 import json
 import math
 import shlex
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields
-from enum import Enum
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from functools import cached_property, lru_cache
 from numbers import Integral
 from pathlib import Path
 from typing import Any, Final
 
-import apnc_core
+from apnc.loop.code import code_hash
 from apnc.loop.engines import OWN_ENGINE, check_engine
-from apnc.loop.steps import Over, check_steps, steps_of, steps_text
+from apnc.loop.plain import made, plain
+from apnc.loop.steps import Over, check_steps, mapped, steps_of, steps_text
 from apnc_core.enumerations import Method
+from apnc_core.frozen import Frozen
 from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import Causality, Value
 from apnc_core.settings import checked
@@ -32,7 +33,16 @@ Setting = Value | Sequence[float]
 OWN_PRESET: Final = "robot"
 """The preset that takes the table's defaults and what the robot's file sets of them."""
 
-_SET_ELSEWHERE: Final = {"Ts": "rate", "method": "method"}
+_OVER_TIME: Final[Mapping[str, Callable[[Any], Any]]] = {
+    "mi": float,
+    "turn": float,
+    "reset": bool,
+    "conditions": lambda value: value,
+}
+"""Fields that hold one value or steps over time, and what gives each value its type."""
+
+SET_ELSEWHERE: Final = {"Ts": "rate", "method": "method"}
+"""Parameters that are no settings, and the field that each comes from."""
 
 
 @dataclass(frozen=True)
@@ -100,10 +110,15 @@ class Experiment:
         check_engine(self.engine)
         PlantOptions(step=self.step, contact=self.contact).check_contact(self.engine)
         self.parameters()
-        # equal experiments are equal however their numbers came, and go into JSON
+        # equal experiments are equal however their numbers came, and nothing in them can change
         own = {name: checked(name, value) for name, value in self.settings.items()}
-        object.__setattr__(self, "settings", own)
-        object.__setattr__(self, "seed", int(self.seed))
+        numbers = {name: float(getattr(self, name)) for name in ("duration", "rate", "step")}
+        over = {
+            name: mapped(getattr(self, name), own_type) for name, own_type in _OVER_TIME.items()
+        }
+        whole = {"seed": int(self.seed), "settings": Frozen(own)}
+        for name, value in {**numbers, **over, **whole}.items():
+            object.__setattr__(self, name, value)
 
     def _check_times(self) -> None:
         limits = row("Ts")
@@ -156,8 +171,8 @@ class Experiment:
             "method": Method[self.method],
         }
         for name, value in {**own, **self.settings}.items():
-            if name in _SET_ELSEWHERE:
-                raise ValueError(f"{name} = {value} is not set here, but by {_SET_ELSEWHERE[name]}")
+            if name in SET_ELSEWHERE:
+                raise ValueError(f"{name} = {value} is not set here, but by {SET_ELSEWHERE[name]}")
             values[name] = checked(name, value)
         relations, legs = values["phi_stored"], len(self.description.legs)
         assert isinstance(relations, Sequence)
@@ -169,8 +184,8 @@ class Experiment:
 
     def plain_parameters(self) -> dict[str, Any]:
         """Every parameter as plain data for JSON, enumerations by name."""
-        plain: dict[str, Any] = _plain(self.parameters())
-        return plain
+        values: dict[str, Any] = plain(self.parameters())
+        return values
 
     def changed(self) -> dict[str, Any]:
         """Fields that are not the default, by name."""
@@ -183,46 +198,39 @@ class Experiment:
 
     def to_dict(self) -> dict[str, Any]:
         """Every field as plain data for JSON, the robot by its name unless it is an object."""
-        values = {f.name: getattr(self, f.name) for f in fields(self)}
-        values["ground"] = self.ground.to_dict()
-        plain: dict[str, Any] = _plain(values)
-        return plain
+        values: dict[str, Any] = plain(self)
+        return values | {"ground": self.ground.to_dict()}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Experiment:
         """The experiment that :meth:`to_dict` gave, also after a way through JSON.
 
         Raises:
-            ValueError: not such data, or a robot that was given as an object.
+            ValueError: not such data.
         """
         values = dict(data)
-        if isinstance(values.get("robot"), Mapping):
-            raise ValueError("the robot was given as an object; allowed here: its name or file")
         try:
+            values["robot"] = made(RobotDescription, values["robot"])
             values["ground"] = from_dict(values["ground"])
-            for name in ("mi", "turn", "reset", "conditions"):
-                whole, entry = not isinstance(values[name], list | tuple), values[name]
-                steps = tuple((start, _read(value)) for start, value in steps_of(entry))
-                values[name] = _read(entry) if whole else steps
+            for name in _OVER_TIME:
+                values[name] = mapped(values[name], lambda value: made(Conditions, value))
             return cls(**values)
         except (KeyError, TypeError) as error:
             raise ValueError(f"not an experiment: {error}") from None
 
     def key(self) -> str:
-        """Hash of all that a run depends on: robot, parameters, package version; 16 hex digits."""
+        """Hash of all that a run depends on: robot, parameters, code; 16 hex digits."""
         content = {
             **self.to_dict(),
-            "robot": asdict(self.description),
+            "robot": self.description,
             "parameters": self.parameters(),
-            "conditions": [(t, asdict(conditions_of(c))) for t, c in steps_of(self.conditions)],
+            "conditions": [(t, conditions_of(c)) for t, c in steps_of(self.conditions)],
             "fmu": self.fmu and hashlib.sha256(Path(self.fmu).read_bytes()).hexdigest(),
-            "version": apnc_core.__version__,
+            "code": code_hash(),
         }
         for name in ("preset", "settings", "method"):
             del content[name]  # the parameters say it all
-        if self.engine == OWN_ENGINE:
-            del content["engine"]  # keys are those from before there was a second one
-        text = json.dumps(_plain(content), sort_keys=True)
+        text = json.dumps(plain(content), sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def command(self) -> str:
@@ -269,14 +277,6 @@ def conditions_of(value: str | Conditions) -> Conditions:
     return named_conditions(value)
 
 
-def _read(value: Any) -> Any:
-    """A value at a time of plain data: conditions are a table there."""
-    if not isinstance(value, Mapping):
-        return value
-    plain: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in value.items()}
-    return Conditions(**plain)
-
-
 def _name_of(value: str | Conditions) -> str:
     named = (name for name, each in CONDITIONS.items() if value in (name, each))
     return next(named, str(value))
@@ -304,20 +304,7 @@ def _setting_text(name: str, value: Any) -> str:
     enumeration = row(name).enumeration
     if enumeration:
         return enumeration.items(value).name
-    return json.dumps(_plain(value))
-
-
-def _plain(value: Any) -> Any:
-    """Data that JSON knows: enumerations by name, objects as tables."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(entry) for key, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(entry) for entry in value]
-    if isinstance(value, Enum):
-        return value.name
-    if hasattr(value, "__dataclass_fields__"):
-        return _plain(asdict(value))
-    return value
+    return json.dumps(plain(value))
 
 
 @lru_cache

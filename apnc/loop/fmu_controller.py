@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import shutil
 import tempfile
 import time
 import zipfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Final
+from typing import Any
 
 import fmpy
 import numpy as np
@@ -20,7 +17,7 @@ from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
 from numpy.typing import NDArray
 
-from apnc_core.schema import Causality, Shape, Type, Value, Variable
+from apnc_core.schema import Causality, Shape, Type, Value
 from apnc_core.variables import TABLE, Scalar, row, scalars
 from build_fmu.platforms import BuildError, library_of, why_not_loaded
 from exudyn_models.trace import Trace
@@ -33,31 +30,23 @@ class FmuError(ValueError):
     """An FMU that cannot be used, or that refused a call, in one line."""
 
 
-@dataclass(frozen=True)
 class Block:
-    """Variables of one FMI type that are read or written in one call."""
+    """Variables of one FMI type that are read or written in one call.
 
-    names: tuple[tuple[Variable, int, int], ...]
-    references: Any
-    buffer: Any
-    view: np.ndarray[Any, np.dtype[Any]]
+    Attributes:
+        call: the FMI function.
+        arguments: what it takes after the component.
+        view: the values, as numpy sees them.
+        places: where the entries of each variable lie in ``view``.
+    """
 
-
-def _block(members: Sequence[Scalar], real: bool) -> Block:
-    names: list[tuple[Variable, int, int]] = []
-    buffer: Any
-    for at, member in enumerate(members):
-        if not names or names[-1][0] is not member.variable:
-            names.append((member.variable, at, 0))
-        variable, first, count = names[-1]
-        names[-1] = (variable, first, count + 1)
-    references = (ctypes.c_uint * len(members))(*[m.value_reference for m in members])
-    buffer = ((ctypes.c_double if real else ctypes.c_int) * len(members))()
-    view = np.frombuffer(buffer, dtype=np.float64 if real else np.intc)
-    return Block(tuple(names), references, buffer, view)
-
-
-_SHOWN: Final = (Causality.output, Causality.local)
+    def __init__(self, call: Any, members: Sequence[Scalar]) -> None:
+        real, n = members[0].variable.type is Type.real, len(members)
+        references = (ctypes.c_uint * n)(*[m.value_reference for m in members])
+        buffer: Any = ((ctypes.c_double if real else ctypes.c_int) * n)()
+        self.call, self.arguments = call, (references, n, buffer)
+        self.view: Any = np.frombuffer(buffer, dtype=np.float64 if real else np.intc)
+        self.places = {m.variable: slice(at - m.element, at + 1) for at, m in enumerate(members)}
 
 
 def _names_in(description: Any) -> tuple[int, str]:
@@ -72,7 +61,7 @@ def _names_in(description: Any) -> tuple[int, str]:
     raise FmuError(f"'{description.modelName}' is not an APNC controller: its variables differ")
 
 
-class FmuController:
+class FmuController(contextlib.ExitStack):
     """One instance of the controller FMU, initialised and ready to step.
 
     Args:
@@ -91,22 +80,23 @@ class FmuController:
         parameters: Mapping[str, Setting] | None = None,
         start_time: float = 0.0,
     ) -> None:
+        super().__init__()
         self.messages: list[str] = []
         self.wall_s = 0.0
         description = check_fmu(path)
         self.n_legs, self.naming = _names_in(description)
-        self._folder = tempfile.mkdtemp(prefix="apnc-")
-        try:
-            self._instantiate(path, description)
+        with contextlib.ExitStack() as start:
+            folder = tempfile.TemporaryDirectory(prefix="apnc-", ignore_cleanup_errors=True)
+            self._instantiate(path, description, start.enter_context(folder))
             self._initialise(parameters or {}, start_time)
-        except BaseException:
-            shutil.rmtree(self._folder, ignore_errors=True)
-            raise
+            self.push(start.pop_all())
+        self.callback(self._fmu.freeInstance)
+        self.callback(self._fmu.terminate)
         self._prepare()
 
-    def _instantiate(self, path: Path | str, description: Any) -> None:
-        fmpy.extract(str(path), unzipdir=self._folder)
-        folder = Path(self._folder)
+    def _instantiate(self, path: Path | str, description: Any, unzipped: str) -> None:
+        fmpy.extract(str(path), unzipdir=unzipped)
+        folder = Path(unzipped)
         try:
             library = library_of(folder)
         except BuildError as error:
@@ -115,7 +105,7 @@ class FmuController:
             with contextlib.chdir(Path.cwd()):  # FMPy goes elsewhere to load, and stays if it fails
                 self._fmu = fmi2.FMU2Slave(
                     guid=description.guid,
-                    unzipDirectory=self._folder,
+                    unzipDirectory=unzipped,
                     modelIdentifier=description.coSimulation.modelIdentifier,
                     instanceName="controller",
                     libraryPath=str(library),
@@ -161,27 +151,32 @@ class FmuController:
         if len(values) != len(members):
             raise FmuError(f"{name} takes {len(members)} values, not {len(values)}")
         references = [m.value_reference for m in members]
-        kind = members[0].variable.type
-        if kind is Type.real:
-            self._fmu.setReal(references, [float(v) for v in values])
-        elif kind is Type.boolean:
-            self._fmu.setBoolean(references, [bool(v) for v in values])
-        else:
-            self._fmu.setInteger(references, [int(v) for v in values])
+        put, convert = {
+            Type.real: (self._fmu.setReal, float),
+            Type.boolean: (self._fmu.setBoolean, bool),
+        }.get(members[0].variable.type, (self._fmu.setInteger, int))
+        put(references, [convert(v) for v in values])
 
     def _prepare(self) -> None:
-        members = list(scalars(self.n_legs, self.naming))
-        shown = [m for m in members if m.variable.causality in _SHOWN]
-        inputs = [m for m in members if m.variable.causality is Causality.input]
-        self._real_in = _block([m for m in inputs if m.variable.type is Type.real], True)
-        self._reset_in = _block([m for m in inputs if m.variable.type is Type.boolean], False)
-        self._reals = _block([m for m in shown if m.variable.type is Type.real], True)
-        self._integers = _block([m for m in shown if m.variable.type is Type.integer], False)
-        self._booleans = _block([m for m in shown if m.variable.type is Type.boolean], False)
-        places = {v.name: (first, count) for v, first, count in self._reals.names}
-        self.phi = self._reals.view[slice(*_span(places["phi"]))]
-        self.theta_hip = self._reals.view[slice(*_span(places["theta_hip"]))]
-        self.theta_knee = self._reals.view[slice(*_span(places["theta_knee"]))]
+        def block(call: str, kind: Type, *shown: Causality) -> Block:
+            members = scalars(self.n_legs, self.naming)
+            own = [m for m in members if m.variable.type is kind and m.variable.causality in shown]
+            return Block(getattr(self._fmu, f"fmi2{call}"), own)
+
+        outputs = (Causality.output, Causality.local)
+        self._written = (
+            block("SetReal", Type.real, Causality.input),
+            block("SetBoolean", Type.boolean, Causality.input),
+        )
+        self._read = (
+            block("GetReal", Type.real, *outputs),
+            block("GetInteger", Type.integer, *outputs),
+            block("GetBoolean", Type.boolean, *outputs),
+        )
+        reals = self._read[0]
+        self.phi, self.theta_hip, self.theta_knee = (
+            reals.view[reals.places[row(name)]] for name in ("phi", "theta_hip", "theta_knee")
+        )
 
     def set(self, name: str, value: Setting) -> None:
         """Set a tunable parameter between two steps.
@@ -207,35 +202,24 @@ class FmuController:
         Raises:
             FmuError: the FMU refused.
         """
-        fmu, c = self._fmu, self._fmu.component
-        begin = time.perf_counter()
-        n = self.n_legs
-        self._real_in.view[:n] = grf
-        self._real_in.view[n] = MI
-        self._real_in.view[n + 1] = turn
-        self._reset_in.view[0] = reset
+        component, begin = self._fmu.component, time.perf_counter()
+        commands, flags = self._written
+        commands.view[:-2] = grf
+        commands.view[-2:] = MI, turn
+        flags.view[0] = reset
         try:
-            block = self._real_in
-            fmu.fmi2SetReal(c, block.references, len(block.view), block.buffer)
-            block = self._reset_in
-            fmu.fmi2SetBoolean(c, block.references, len(block.view), block.buffer)
-            fmu.fmi2DoStep(c, t, h, fmi2.fmi2True)
-            block = self._reals
-            fmu.fmi2GetReal(c, block.references, len(block.view), block.buffer)
-            block = self._integers
-            fmu.fmi2GetInteger(c, block.references, len(block.view), block.buffer)
-            block = self._booleans
-            fmu.fmi2GetBoolean(c, block.references, len(block.view), block.buffer)
+            for block in self._written:
+                block.call(component, *block.arguments)
+            self._fmu.fmi2DoStep(component, t, h, fmi2.fmi2True)
+            for block in self._read:
+                block.call(component, *block.arguments)
         except FMICallException as error:
             raise FmuError(self._why(error)) from error
         self.wall_s += time.perf_counter() - begin
 
-    def _blocks(self) -> tuple[Block, ...]:
-        return (self._real_in, self._reset_in, self._reals, self._integers, self._booleans)
-
     def trace(self) -> Trace:
         """A recorder of all inputs, outputs and local variables, a row per tick."""
-        return Trace([block.view for block in self._blocks()], self._channels)
+        return Trace([block.view for block in self._written + self._read], self._channels)
 
     def sample(self) -> dict[str, Array]:
         """All inputs, outputs and local variables now, by row name; shape () or (entries,)."""
@@ -245,36 +229,13 @@ class FmuController:
 
     def _channels(self, rows: Array) -> dict[str, Array]:
         channels, start = {}, 0
-        for block in self._blocks():
-            for v, first, count in block.names:
-                values = rows[:, start + first : start + first + count].copy()
+        for block in self._written + self._read:
+            own = rows[:, start : start + len(block.view)]
+            for v, place in block.places.items():
+                values = own[:, place].copy()
                 channels[v.name] = values[:, 0] if v.shape is Shape.scalar else values
             start += len(block.view)
         return channels
-
-    def close(self) -> None:
-        """Free the instance and its files."""
-        self._fmu.terminate()
-        self._fmu.freeInstance()
-        shutil.rmtree(self._folder, ignore_errors=True)
-
-    def __enter__(self) -> FmuController:
-        """Use in a with statement."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Free the instance and its files."""
-        self.close()
-
-
-def _span(place: tuple[int, int]) -> tuple[int, int]:
-    first, count = place
-    return first, first + count
 
 
 def check_fmu(path: Path | str) -> Any:

@@ -7,6 +7,7 @@ from importlib.metadata import version
 from typing import Any, Final
 
 import apnc_core
+from apnc.loop.code import code_hash
 from apnc.loop.experiment import Experiment
 
 _LIBRARIES: Final = ("exudyn", "fmpy", "numba", "numpy")
@@ -22,6 +23,7 @@ def what_was_run(experiment: Experiment) -> dict[str, Any]:
         "versions": {
             "apnc": apnc_core.__version__,
             "python": platform.python_version(),
+            "code": code_hash(),
             **{name: version(name) for name in sorted({*_LIBRARIES, experiment.engine})},
         },
     }

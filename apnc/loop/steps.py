@@ -21,6 +21,13 @@ def steps_of(value: Over[Any]) -> Steps[Any]:
     return ((0.0, value),)
 
 
+def mapped(value: Over[Any], change: Callable[[Any], Any]) -> Over[Any]:
+    """The quantity with ``change`` done to each of its values."""
+    if not isinstance(value, tuple | list):
+        return change(value)
+    return tuple((start, change(entry)) for start, entry in steps_of(value))
+
+
 def check_steps(name: str, value: Over[Any], check: Callable[[str, Any], None]) -> None:
     """Check the times of a quantity, and each of its values with ``check(name, value)``.
 

@@ -12,7 +12,7 @@ from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import Array, Run, line, stacked
 from apnc.report.skeleton import clearance, in_ground
-from exudyn_models.channels import JOINTS
+from exudyn_models.channels import JOINT_SIGNS, JOINTS
 
 PI_TICKS: Final = {
     "tickvals": [-np.pi / 2, 0.0, np.pi / 2, np.pi, 3 * np.pi / 2],
@@ -23,7 +23,7 @@ PI_TICKS: Final = {
 def all_figures(run: Run) -> list[Figure]:
     """Every panel in reading order."""
     makers = (gait, phases, _speed, _path, _trunk, _clearances, _loads, outputs, _gains)
-    joints = [_angles(run, "hip", "leg"), _angles(run, "knee", "foot")]
+    joints = [_angles(run, joint) for joint in ("hip", "knee")]
     return [*(make(run) for make in makers), _stability(run), *joints, _torques(run)]
 
 
@@ -182,13 +182,13 @@ def _stability(run: Run) -> Figure:
     )
 
 
-def _angles(run: Run, joint: str, part: str) -> Figure:
+def _angles(run: Run, joint: str) -> Figure:
     actual = run.record.plant["joint_angle"][..., JOINTS.index(joint)]
     commanded = run.record.controller[f"theta_{joint}"]
     series = {"actual": np.degrees(actual), "commanded": np.degrees(commanded)}
     note = (
-        f"Against the reference pose; positive swings the {part} forward. Commanded: by the FMU, "
-        "before the limits of the servo and damage."
+        f"Against the reference pose; a positive angle {JOINT_SIGNS[joint]}. Commanded: by the "
+        "FMU, before the limits of the servo and damage."
     )
     return run.leg_rows(joint, f"{joint.capitalize()} angles", "°", series, note)
 

@@ -7,7 +7,14 @@ from typing import Final, NamedTuple
 
 from apnc.studies.contenders import contender
 from apnc.studies.rows import AUTHORS, STRICT, Row, is_number, matching, successes, values
-from apnc.studies.statistics import compare, median, of_runs, rank_correlation, rate
+from apnc.studies.statistics import (
+    compare,
+    median,
+    of_runs,
+    p_text,
+    rank_correlation,
+    rate,
+)
 
 YES, PARTLY, NO = "reproduced", "partly", "not"
 FEW, NOT_RUN = "no verdict", "not run"
@@ -118,7 +125,7 @@ def sooner(rows: Sequence[Row], column: str, fast: str, slow: str, axis: str) ->
     text = (
         f"{contender(fast).name} {median(a).text(1, 's', len(own))} against "
         f"{contender(slow).name} {median(b).text(1, 's', len(other))}, faster in "
-        f"{wins} of {len(cells)} cells, p = {test.p:.1e}, r = {test.effect:.2f}"
+        f"{wins} of {len(cells)} cells, {p_text(test.p)}, r = {test.effect:.2f}"
     )
     if len(b) < MIN_SEEDS:
         return Finding(text, FEW)
@@ -151,7 +158,7 @@ def ranks(rows: Sequence[Row], column: str, axis: str, sign: int, labels: Sequen
         n = f"n = {of_runs(len(known), len(own))}"
         if test is None or len(known) < MIN_SEEDS:
             return Finding(f"too few, {n}", FEW)
-        text = f"rho = {test.effect:.2f} (p = {test.p:.1e}), {n}"
+        text = f"rho = {test.effect:.2f} ({p_text(test.p)}), {n}"
         return Finding(text, verdict(sign * test.effect > 0 and test.p <= SIGNIFICANT, False))
 
     return each_of(labels, check)

@@ -91,6 +91,11 @@ class Comparison(NamedTuple):
     effect: float
 
 
+def p_text(p: float) -> str:
+    """``p = 0.042``, ``p = 1``, ``p < 0.001``."""
+    return "p < 0.001" if p < 0.001 else f"p = {p:.2g}"
+
+
 def rank_correlation(x: Sequence[float], y: Sequence[float]) -> Comparison | None:
     """Spearman's rho of pairs; None with fewer than three, or if x or y are all equal."""
     if len(x) < 3 or len(set(x)) < 2 or len(set(y)) < 2:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import time
+from collections import defaultdict
 from pathlib import Path
 
 from apnc.studies.rows import Row
@@ -23,11 +25,15 @@ class Store(contextlib.ExitStack):
 
     Attributes:
         rows: by study, method and key; without a line that a kill has torn, which is dropped.
+        wall_s: wall time that went by before each row [s], over all runs of the study; it is in
+            the file, but not in the row: two runs give the same rows.
     """
 
     def __init__(self, path: Path | None) -> None:
         super().__init__()
         self.rows: dict[tuple[str, str, str], Row] = {}
+        self.wall_s: defaultdict[tuple[str, str, str], float] = defaultdict(float)
+        self._since = time.perf_counter()
         self._file = None
         if path is None:
             return
@@ -39,7 +45,8 @@ class Store(contextlib.ExitStack):
         for line in lines:
             with contextlib.suppress(ValueError, KeyError, TypeError):  # a damaged line
                 row = json.loads(line)
-                self.rows[place_of(row)] = row
+                self.rows[at := place_of(row)] = row
+                self.wall_s[at] += row.pop("wall_s", 0.0)
 
     def add(self, row: Row) -> None:
         """Append a row; it is on disk when this returns.
@@ -47,10 +54,13 @@ class Store(contextlib.ExitStack):
         Raises:
             OSError: it cannot be written; the file is named.
         """
-        self.rows[place_of(row)] = row
+        before, self._since = self._since, time.perf_counter()
+        self.rows[at := place_of(row)] = row
+        self.wall_s[at] += (wall_s := self._since - before)
         if self._file is not None:
             try:
-                self._file.write(json.dumps(row, allow_nan=False).encode() + b"\n")
+                text = json.dumps(row | {"wall_s": round(wall_s, 3)}, allow_nan=False)
+                self._file.write(text.encode() + b"\n")
                 self._file.flush()
                 os.fsync(self._file.fileno())
             except OSError as error:

@@ -30,7 +30,7 @@ def pool(workers: int, scheduler: str | None) -> Iterator[Executor | None]:
         yield None
     else:
         try:
-            from joblib.externals.loky import get_reusable_executor  # noqa: PLC0415  # an extra
+            from loky import get_reusable_executor  # noqa: PLC0415  # an extra
         except ImportError:
             extra = "pip install 'apnc[study]', or --workers 1"
             raise ValueError(f"workers = {workers} needs the extra 'study': {extra}") from None

@@ -146,6 +146,10 @@ class Surface(ABC):
 
         Returns:
             Points on the ground in its frame [m], each line of shape (points, 3).
+
+        Points are 1 cm apart, so a vertical face is drawn as a slope of 1 cm: a ground with faces
+        overrides :meth:`_line` and adds both ends of each, as ``Kerb`` does, or ``lines`` as a
+        whole, as ``Ground`` does.
         """
         lines = [self._line(self._stations(x0, x1), [y]) for y in _multiples(y0, y1)]
         return lines + [

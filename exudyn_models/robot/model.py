@@ -9,6 +9,7 @@ from typing import Annotated, Final, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from apnc_core.frozen import Frozen
 from apnc_core.settings import checked
 from exudyn_models.robot.quantity import FLAT, Checked, NotAllowedError, RobotDescriptionError, Rule
 
@@ -236,7 +237,7 @@ class RobotDescription(Checked):
     servo: Servo
     contact: Contact
     sensor: Sensor = field(default_factory=Sensor)
-    controller: Mapping[str, float | int | bool] = field(default_factory=dict, hash=False)
+    controller: Mapping[str, float | int | bool] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Put the legs in order and check them and the preset."""
@@ -250,7 +251,7 @@ class RobotDescription(Checked):
         if len(right) != len(ordered) // 2:
             allowed = f"{len(ordered) // 2} of {len(ordered)} legs with y < 0, right of the middle"
             raise NotAllowedError("legs", f"{len(right)} right ({', '.join(right)})", allowed)
-        object.__setattr__(self, "controller", _preset(self.controller))
+        object.__setattr__(self, "controller", Frozen(_preset(self.controller)))
 
     @property
     def mass(self) -> float:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import shlex
 import sys
 from pathlib import Path
@@ -20,22 +18,6 @@ from apnc.loop.provenance import what_was_run
 needs_mujoco = pytest.mark.skipif(
     "not __import__('importlib').util.find_spec('mujoco')", reason="mujoco is not installed"
 )
-
-
-def test_keys_of_exudyn_are_those_from_before_there_was_another_engine(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    hashed: list[dict[str, object]] = []
-    sha256 = hashlib.sha256
-
-    def noted(data: bytes) -> object:
-        hashed.append(json.loads(data))
-        return sha256(data)
-
-    monkeypatch.setattr(hashlib, "sha256", noted)
-    assert Experiment().key() != Experiment(engine="mujoco").key()
-    assert "engine" not in hashed[0]
-    assert hashed[1]["engine"] == "mujoco"
 
 
 @pytest.mark.parametrize("contact", ["compiled", "mujoco"])

@@ -12,7 +12,7 @@ from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Finding, Rul
 from apnc.studies.contenders import ALL, contender
 from apnc.studies.plots import over_axis
 from apnc.studies.rows import Row, cells_in, matching, methods_in, values
-from apnc.studies.statistics import Comparison, compare, holm, of_runs
+from apnc.studies.statistics import Comparison, compare, holm, of_runs, p_text
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others
 
 METRICS: Final = {
@@ -54,7 +54,7 @@ class Compared(NamedTuple):
         words = f"{self.metric} against {contender(self.method).name}"
         if self.test is None:
             return f"{words}: too few, n = {self.n}"
-        return f"{words}: p = {self.test.p:.2g}, r = {self.test.effect:.2f}, n = {self.n}"
+        return f"{words}: {p_text(self.test.p)}, r = {self.test.effect:.2f}, n = {self.n}"
 
 
 def experiment(method: str, seed: int, condition: str) -> Experiment:
@@ -112,7 +112,7 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
     for metric, label in METRICS.items():
         differs = [
             f"{t.condition} {contender(t.method).name} "
-            f"(p = {t.test.p:.2g}, r = {t.test.effect:.2f})"
+            f"({p_text(t.test.p)}, r = {t.test.effect:.2f})"
             for t in tests
             if t.metric == metric and t.test
         ]

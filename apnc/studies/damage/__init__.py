@@ -12,7 +12,7 @@ from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Finding, ver
 from apnc.studies.contenders import ALL, RIVALS, contender
 from apnc.studies.plots import counted, side_by_side
 from apnc.studies.rows import SPEED, Row, matching, methods_in, values
-from apnc.studies.statistics import compare, holm, median
+from apnc.studies.statistics import compare, holm, median, p_text
 from apnc.studies.study import COURSE_MI, WALK_S, Study, fewer_of_others
 
 
@@ -28,7 +28,7 @@ def fastest(rows: Sequence[Row]) -> Finding:
     texts = (
         f"{contender(label).name}: "
         f"{median(found).text(3, 'm/s', len(matching(rows, method=label)))}"
-        + (f", p = {tests[label].p:.1e}" if label in tests else "")
+        + (f", {p_text(tests[label].p)}" if label in tests else "")
         for label, found in speeds.items()
     )
     holds = verdict(beaten == len(told), beaten > 0)

@@ -89,7 +89,9 @@ def table(costs: Mapping[Key, Cost]) -> str:
             "engine": STYLES[engine][0],
             "step [ms]": f"{1e3 * TICK / steps:.3f}",
             "force error": f"{100.0 * cost.force_error:.1f} %",
-            f"time of a tick, Exudyn at {1e3 * TICK / USUAL[1]:.3f} ms = 1": f"{cost.tick_s / usual:.2f}",
+            f"time of a tick, Exudyn at {1e3 * TICK / USUAL[1]:.3f} ms = 1": (
+                f"{cost.tick_s / usual:.2f}"
+            ),
             "at equal force error": f"{at_equal_error(costs, engine):.2f}" * (steps == USUAL[1]),
         }
 

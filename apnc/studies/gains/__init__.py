@@ -29,7 +29,7 @@ from apnc.studies.contenders import CONTENDERS, contender
 from apnc.studies.plots import convergence
 from apnc.studies.rows import AUTHORS, STRICT, Row, cells_in, is_number, matching, successes, values
 from apnc.studies.states.measure import STOPPED, WALKS
-from apnc.studies.statistics import compare, median, rate
+from apnc.studies.statistics import compare, median, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study
 from apnc.studies.table import markdown, middle
 from apnc_core.variables import row as row_of
@@ -111,7 +111,7 @@ def best_setting(rows: Sequence[Row]) -> float | None:
         times = [row[AUTHORS] if is_number(row.get(AUTHORS)) else np.inf for row in own]
         return -walks(own), -walks(own, AUTHORS), float(np.median(times)), gain
 
-    best = min(cells_in(rows, "gain"), key=merit, default=None)
+    best: float | None = min(cells_in(rows, "gain"), key=merit, default=None)
     if best is None or merit(best)[:2] == (0, 0):
         return None
     return best
@@ -159,7 +159,7 @@ def too_weak(rows: Sequence[Row], column: str) -> Finding:
         times = [[r.get(column) or r["duration"] for r in part] for part in (weak, best)]
         test = compare(*times)
         shown = (median(values(part, column)).text(1, "s", len(part)) for part in (weak, best))
-        text = f"{next(shown)} at {least:g}, {next(shown)} at {_text(good)}, p = {test.p:.1e}"
+        text = f"{next(shown)} at {least:g}, {next(shown)} at {_text(good)}, {p_text(test.p)}"
         if good in (None, least) or min(len(part) for part in times) < MIN_SEEDS:
             return Finding(text, FEW)
         return Finding(text, verdict(test.effect > 0 and test.p <= SIGNIFICANT, False))

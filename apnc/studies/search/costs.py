@@ -62,7 +62,7 @@ WANTED_RATIO: Final = 2.0
 MARGIN: Final = 0.93
 """Share of the learning rates with which an oscillator under a stuck load must still stop [1]."""
 
-MEMORY: Final = Timeline(lowered=0.0, broken=3.0, stopped=8.0, restarted=9.0, end=14.0)
+MEMORY: Final = Timeline(lowered=0.0, broken=3.0, stopped=8.0, restarted=9.0, end=17.0)
 
 STORED: Final[Mapping[str, Setting]] = {"stored": True, "phi_stored": (3.3, 3.05, 0.12)}
 """A gait that is not exact, as measured relations never are."""
@@ -94,7 +94,7 @@ def costs(candidate: Candidate, seed: int) -> tuple[float, ...]:
     shared: dict[str, Any] = {"robot": robot, "settings": {**settings, **STORED}}
     return (
         *(cost for cost, _ in walks),
-        ratio_cost(speeds[COURSE_MI], speeds[BANDS[-1][0]]),
+        1.5 * ratio_cost(speeds[COURSE_MI], speeds[BANDS[-1][0]]),
         walked(formation_cost, WALK_MI, rate=rate, duration=11.0 * 60.0 / rate)[0],
         walked(payload_cost, WALK_MI, conditions="C4")[0],
         walked(damage_cost, COURSE_MI, conditions="C3")[0],
@@ -153,7 +153,7 @@ def walk_cost(record: Record) -> float:
     late = _Late(record)
     slow = min(1.0, max(0.0, 0.06 + 0.1 * _mi(record) - late.speed) / 0.05)
     turning = 0.35 * math.log1p(abs(late.turning) / WANTED_TURN)
-    return formation_cost(record) + 0.25 * late.foot_costs() + slow + turning
+    return formation_cost(record) + 0.35 * late.foot_costs() + slow + turning
 
 
 def payload_cost(record: Record) -> float:
@@ -181,7 +181,7 @@ def memory_cost(experiment: Experiment) -> float:
     if not record.complete:
         return FAILED
     found, cost = judge(record, MEMORY), 0.0
-    for begin, end, state in ((3.5, 8.0, "speed_s2"), (11.0, 14.0, "speed_s3")):
+    for begin, end, state in ((3.5, 8.0, "speed_s2"), (14.0, 17.0, "speed_s3")):
         error = _error(record, slice(int(begin * 60), int(end * 60)))
         cost += float(np.clip(error - 0.25, 0.0, 1.5).mean())
         cost += min(1.0, max(0.0, 0.07 - found[state]) / 0.05)

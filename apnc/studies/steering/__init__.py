@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -13,9 +12,9 @@ from apnc import metrics
 from apnc.loop.record import Record
 from apnc.loop.steps import steps_of
 from apnc.studies.claims import FEW, MIN_SEEDS, NO, PARTLY, YES, Claim, Finding, ranks, verdict
-from apnc.studies.rows import Row, cells_in, values
+from apnc.studies.rows import Row, cells_in, matching, values
 from apnc.studies.statistics import median
-from apnc.studies.steering.course import SLOPES, SPEED, SPEEDS, TURNS, YAW_RATE, experiment
+from apnc.studies.steering.course import SLOPES, SPEED, YAW_RATE, experiment
 from apnc.studies.steering.figures import figures, scenes
 from apnc.studies.study import Study
 

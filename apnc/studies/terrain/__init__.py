@@ -24,7 +24,7 @@ from apnc.studies.claims import (
 from apnc.studies.contenders import ALL, PHASE_RESET, TEGOTAE
 from apnc.studies.plots import convergence
 from apnc.studies.rows import Row, successes, values
-from apnc.studies.statistics import compare_rates, compare_spread, rate
+from apnc.studies.statistics import compare_rates, compare_spread, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others
 from exudyn_models.ground import Ground
 
@@ -49,7 +49,7 @@ def spread_grows(rows: Sequence[Row], column: str) -> Finding:
         if min(len(a), len(b)) < MIN_SEEDS:
             return Finding(f"too few, n = {len(a)} and {len(b)}", FEW)
         test = compare_spread(a, b)
-        text = f"{np.std(a):.1f} s up to R = 0.5, {np.std(b):.1f} s above, p = {test.p:.1e}"
+        text = f"{np.std(a):.1f} s up to R = 0.5, {np.std(b):.1f} s above, {p_text(test.p)}"
         return Finding(text, verdict(test.effect > 0 and test.p <= SIGNIFICANT, False))
 
     return each_of(ALL, of)
@@ -67,7 +67,7 @@ def fails_above(rows: Sequence[Row], column: str) -> Finding:
     def of(method: str) -> Finding:
         below, above = (rate(successes(part, column, method=method)) for part in (low, high))
         test = compare_rates(below, above)
-        text = f"{below} up to R = 0.8, {above} above, p = {test.p:.1e}"
+        text = f"{below} up to R = 0.8, {above} above, {p_text(test.p)}"
         if below.successes < MIN_SEEDS or above.trials < MIN_SEEDS:
             return Finding(text, FEW)
         full = below.value == 1.0 and above.value < 1.0

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import pickle
 import re
+from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +14,8 @@ import numpy as np
 import pytest
 
 from apnc import Conditions, Experiment, Ground, load_robot
+from apnc.loop.code import code_hash
+from apnc.loop.plain import plain
 from apnc.loop.provenance import what_was_run
 from apnc_core.enumerations import Method
 
@@ -122,10 +126,35 @@ def test_the_key_sees_into_the_robots_file_and_the_fmu(tmp_path: Path) -> None:
     assert len(keys) == 2
 
 
-def test_the_key_sees_the_version(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_key_sees_the_code(monkeypatch: pytest.MonkeyPatch) -> None:
     before = Experiment().key()
-    monkeypatch.setattr("apnc_core.__version__", "99")
+    monkeypatch.setattr("apnc.loop.experiment.code_hash", lambda: "another")
     assert Experiment().key() != before
+
+
+@pytest.mark.parametrize(
+    ("file", "counts"),
+    [
+        ("apnc/loop/simulate.py", True),
+        ("apnc/studies/mi/__init__.py", True),
+        ("exudyn_models/robot/robots/lilibot.toml", True),
+        ("fmu_src/core/cpg.h", True),
+        ("apnc_core/__init__.py", True),  # the version
+        ("apnc/report/page.py", False),
+        ("apnc/studies/mi/figures.py", False),
+        ("apnc/notes.md", False),
+    ],
+)
+def test_an_edit_is_other_code_but_not_one_of_what_only_shows(
+    file: str, counts: bool, tmp_path: Path
+) -> None:
+    path = tmp_path / "a" / file
+    path.parent.mkdir(parents=True)
+    path.write_text("x")
+    before = code_hash(tmp_path / "a")
+    (tmp_path / "a").rename(tmp_path / "b")
+    (tmp_path / "b" / file).write_text("y")
+    assert (code_hash(tmp_path / "b") != before) == counts
 
 
 def test_the_same_parameters_said_otherwise_have_the_same_key() -> None:
@@ -142,12 +171,46 @@ def test_what_was_run_is_plain_json(change: dict[str, Any]) -> None:
     assert said["key"] == experiment.key()
     assert said["command"] == experiment.command()
     assert said["parameters"]["method"] == experiment.method
-    assert {"apnc", "exudyn", "fmpy", "numpy", "python"} <= set(said["versions"])
+    assert {"apnc", "exudyn", "code", "fmpy", "numpy", "python"} <= set(said["versions"])
     assert set(experiment.changed()) == set(change)
 
 
 def test_conditions_of_the_paper_have_their_name_in_the_command() -> None:
     assert Experiment(conditions=Conditions(payload=1.25)).command().endswith("--condition C4")
+
+
+ODD = replace(load_robot("hexapod"), controller={"xi": 0.07, "kappa_rule": "printed"})
+OBJECTS = Experiment(
+    robot=ODD,
+    mi=[[0, 0.1], [5, 0.2]],  # type: ignore[arg-type]  # lists, as from JSON
+    settings={"xi": 0.05, "phi_stored": [1, 2, 3, 1, 1]},
+    conditions=((0, "C1"), (3, Conditions(stuck={"RF": 0.9}, damaged=["LH"]))),  # type: ignore[arg-type]
+    ground=Ground(roughness=0.3),
+    duration=10,
+)
+
+
+@pytest.mark.parametrize("experiment", [Experiment(), OBJECTS])
+def test_an_experiment_cannot_change_and_survives_every_way_of_copying(
+    experiment: Experiment,
+) -> None:
+    conditions = experiment.conditions[-1][-1] if experiment is OBJECTS else Conditions()
+    assert isinstance(conditions, Conditions)
+    for frozen in (experiment.settings, experiment.description.controller, conditions.stuck):
+        with pytest.raises(TypeError):
+            frozen["xi"] = 0.5  # type: ignore[index]
+    through_json = Experiment.from_dict(json.loads(json.dumps(experiment.to_dict())))
+    copies = (deepcopy(experiment), pickle.loads(pickle.dumps(experiment)), through_json)
+    assert {experiment, *copies} == {experiment}
+    for copied in copies:
+        assert copied.key() == experiment.key()
+        assert copied.description == experiment.description
+
+
+def test_whole_numbers_are_the_numbers_they_are() -> None:
+    whole = Experiment(duration=20, rate=50, mi=((0, 0.1), (5, 1)), turn=0)
+    same = Experiment(duration=20.0, rate=50.0, mi=((0.0, 0.1), (5.0, 1.0)), turn=0.0)
+    assert (whole.key(), whole.to_dict()) == (same.key(), same.to_dict())
 
 
 def test_conditions_come_back_from_plain_data() -> None:
@@ -160,8 +223,10 @@ def test_conditions_come_back_from_plain_data() -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"robot": {"name": "x"}}, "the robot was given as an object"),
+        ({"robot": {"name": "x"}}, "not an experiment: "),
+        ({"robot": {**plain(load_robot("lilibot")), "sensor": {"delay": -1.0}}}, "delay is -1.0"),
         ({"cow": 1}, "not an experiment: "),
+        ({"reset": "maybe"}, "reset = maybe is not true or false"),
         ({"mi": [0.1, 0.2]}, "not an experiment: "),
         ({"conditions": {"cow": 1}}, "not an experiment: "),
         ({"ground": {"kind": "moon"}}, "ground 'moon' is not one of"),

@@ -10,6 +10,10 @@ import pytest
 from records import synthetic_record
 
 from apnc.loop.record import column_names
+from apnc.report.figures import all_figures
+from apnc.report.panels import Run
+from apnc.summary import summarise
+from exudyn_models.channels import JOINT_SIGNS
 
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 
@@ -41,3 +45,15 @@ def test_every_column_of_a_run_has_its_row_with_unit_and_meaning(maker: dict[str
         assert frame == (column.frame or "–")
         assert meaning.replace("&#124;", "|") == column.description
         assert sign == (column.sign or "–")
+
+
+def test_the_signs_of_the_joints_are_told_in_the_same_words_everywhere() -> None:
+    pages = [(DOCS / page).read_text(encoding="utf-8") for page in ("record.md", "robots/own.md")]
+    record = synthetic_record(1.0)
+    notes = [f.note for f in all_figures(Run(record, summarise(record))) if f.key in JOINT_SIGNS]
+    assert len(notes) == 2
+    for joint, effect in JOINT_SIGNS.items():
+        assert f"{joint}: {effect}" in pages[0]
+        assert f"| {joint} | {effect}" in pages[1]
+    for note, joint in zip(notes, ("hip", "knee"), strict=True):
+        assert f"a positive angle {JOINT_SIGNS[joint]}." in note

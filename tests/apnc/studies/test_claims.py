@@ -488,7 +488,8 @@ def test_verdict(study: str, text: str, rows: list[Row], expected: str) -> None:
     assert verdict(claim_of(study, text), rows) == expected
 
 
-@pytest.mark.parametrize("name", STUDIES)
+# what the robot is built for has its own tests, in test_gait
+@pytest.mark.parametrize("name", [name for name in STUDIES if name != "gait"])
 def test_every_claim_has_a_case_for_each_of_its_verdicts(name: str) -> None:
     for claim in claims_of(name):
         own = {case[3] for case in CASES if case[0] == name and claim.text.startswith(case[1])}
@@ -563,7 +564,7 @@ def test_the_figures_are_told() -> None:
     text = measured(faster([("apnc", "tegotae")], "mi"), rows)
     assert re.fullmatch(
         r"strict: APNC 2\.0 \(2\.0 \.\.\. 2\.0\) s, n = 30 against Tegotae "
-        r"9\.0 \(9\.0 \.\.\. 9\.0\) s, n = 30, faster in 5 of 5 cells, p = \d\.\de-11, "
+        r"9\.0 \(9\.0 \.\.\. 9\.0\) s, n = 30, faster in 5 of 5 cells, p < 0\.001, "
         r"r = -1\.00; authors': APNC 1\.0 \(1\.0 \.\.\. 1\.0\) s, n = 30 against .*",
         text,
     )
@@ -596,7 +597,7 @@ def test_the_figures_are_told() -> None:
         "authors': Tegotae: 18/18 (81 ... 100 %) up to 25 Hz, 12/12 (74 ... 100 %) above"
     )
     text = measured(trend(STRICT, "rate", -1, ("apc", "apnc")), over_rate(**LATER))
-    assert text.startswith("APC alone: too few, n = 0; APNC: rho = -0.98 (p = ")
+    assert text.startswith("APC alone: too few, n = 0; APNC: rho = -0.98 (p < 0.001)")
     rows = [r | {STRICT: None} if r["seed"] else r for r in over_rate(**LATER)]
     text = measured(trend(STRICT, "rate", -1, ("apnc",)), rows)
     assert text.endswith(", n = 5 of 30") and "rho = -1.00" in text
@@ -613,7 +614,7 @@ def test_the_figures_of_terrain_are_told() -> None:
     rows = without(scatter(dict.fromkeys(ALIKE, 1.0), dict.fromkeys(ALIKE, 2.0)), 0, STRICT)
     text = terrain.spread_grows(rows, STRICT).measured
     assert re.match(
-        r"APNC: 1\.7 s up to R = 0\.5, 3\.4 s above, p = \d\.\de-\d+; "
+        r"APNC: 1\.7 s up to R = 0\.5, 3\.4 s above, p = 0\.0018; "
         r"Tegotae: too few, n = 0 and 0; Tegotae \(best\): 1\.7 s",
         text,
     )
@@ -621,7 +622,7 @@ def test_the_figures_of_terrain_are_told() -> None:
     assert terrain.spread_grows(level, STRICT).measured.count("too few") == 5
     text = terrain.fails_above(over_r(**ALIKE | {"tegotae": (never, 5.0)}), STRICT).measured
     assert text.startswith(
-        "Tegotae: 0/24 (0 ... 14 %) up to R = 0.8, 0/12 (0 ... 26 %) above, p = 1.0e+00; "
+        "Tegotae: 0/24 (0 ... 14 %) up to R = 0.8, 0/12 (0 ... 26 %) above, p = 1; "
     )
 
 
@@ -645,7 +646,7 @@ def test_the_other_figures_are_told() -> None:
     rows = speeds(apnc=0.3, tegotae=0.2, phase_reset=None)
     assert re.fullmatch(
         r"APNC: 0\.300 \(.*\) m/s, n = 6; Tegotae: 0\.200 \(.*\) m/s, n = 6, "
-        r"p = \d\.\de-03; Tegotae \(best\): .*; phase resetting: -, n = 0 of 6; "
+        r"p = 0\.0043; Tegotae \(best\): .*; phase resetting: -, n = 0 of 6; "
         r"phase resetting \(best\): -, n = 0 of 6",
         measured(damage.fastest, rows),
     )

@@ -13,6 +13,7 @@ from apnc.studies.statistics import (
     compare_spread,
     holm,
     median,
+    p_text,
     rank_correlation,
     rate,
 )
@@ -125,3 +126,18 @@ def test_holm_steps_down() -> None:
 
 def test_holm_ends_at_one() -> None:
     assert [test.p for test in holm([Comparison(0.6, 0.0), Comparison(0.7, 0.0)])] == [1.0, 1.0]
+
+
+@pytest.mark.parametrize(
+    ("p", "text"),
+    [
+        (1.0, "p = 1"),
+        (0.9999, "p = 1"),
+        (0.0416, "p = 0.042"),
+        (1e-3, "p = 0.001"),
+        (9e-4, "p < 0.001"),
+        (0.0, "p < 0.001"),
+    ],
+)
+def test_a_p_is_told_in_two_digits(p: float, text: str) -> None:
+    assert p_text(p) == text
