@@ -25,7 +25,7 @@ CENTRES: Final = (
 KERNELS: Final = len(CENTRES)
 
 OVERLAP: Final = 1.15
-"""Mean of the kernels' sum along the cycle."""
+"""Mean of the kernels' sum over the angle of the cycle."""
 
 
 def stance_expected(theta: Array, theta_before: Array) -> Array:

@@ -39,6 +39,7 @@ STUDIES: Final = {
         Entry("states", "Motor memory", "Fig. 9-12"),
         Entry("steering", "Speed and direction", "Fig. 13, 14", ("course",)),
         Entry("sensitivity", "Numbers of the robot", "", ("change", "mi")),
+        Entry("forward_model", "Forward models", "", ("model", "mi")),
         Entry("engines", "Two engines", "", ("engine", "mi")),
         Entry("contact", "Integration step of the ground contact", "", ("depth", "steps")),
     )
