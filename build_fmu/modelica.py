@@ -218,7 +218,11 @@ def context() -> dict[str, Any]:
             ("A1_AT_TOUCH_DOWN", first, "activation a1 that touch-down sets (phase_reset)"),
             ("A2_AT_TOUCH_DOWN", second, "activation a2 that touch-down sets (phase_reset)"),
             ("KERNEL_WIDTH", forward_model.KERNEL_WIDTH, "distance squared of a kernel's 1/e"),
-            ("OVERLAP", forward_model.OVERLAP, "mean of the kernels' sum over the angle of the cycle"),
+            (
+                "OVERLAP",
+                forward_model.OVERLAP,
+                "mean of the kernels' sum over the angle of the cycle",
+            ),
             *(
                 (
                     f"CENTRES_{i + 1}[KERNELS]",

@@ -169,7 +169,8 @@ def test_kernels_lie_on_the_cycle_and_overlap_evenly() -> None:
     order, even = np.argsort(angle), np.linspace(-np.pi, np.pi, 1000)
     mean = np.interp(even, angle[order], total[order]).mean()
     assert mean == pytest.approx(forward_model.OVERLAP, abs=0.005)
-    assert total.min() > 0.9 and total.max() < 1.35
+    # no gap: at equal times instead of equal angles it would fall to 0.3
+    assert total.min() > 0.85 and total.max() < 1.4
 
 
 def test_kernels_start_at_the_expectation_of_the_hip() -> None:

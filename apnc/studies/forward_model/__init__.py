@@ -35,7 +35,7 @@ FORMING, LATE = "gain_forming", "gain_late"
 
 def experiment(method: str, seed: int, model: str, mi: float) -> Experiment:
     """A walk with a forward model."""
-    settings = {"forward_model": model}
+    settings = {"forward_model": ForwardModel[model]}
     return Experiment(method=method, seed=seed, mi=mi, duration=25.0, settings=settings)
 
 

@@ -83,7 +83,7 @@
 #define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
 #define APNC_KERNELS 20 /* radial basis functions of the forward model */
 #define APNC_KERNEL_WIDTH 0.04 /* distance squared at which they fall to 1/e */
-#define APNC_OVERLAP 1.15 /* mean of their sum along the cycle */
+#define APNC_OVERLAP 1.15 /* mean of their sum over the angle of the cycle */
 #define APNC_CENTRES {{0.85, 0.0}, {0.87, 0.28}, {0.88, 0.64}, {0.57, 0.79}, {0.27, 0.83}, {0.0, 0.85}, {-0.28, 0.87}, {-0.64, 0.88}, {-0.79, 0.57}, {-0.83, 0.27}, {-0.85, 0.0}, {-0.87, -0.28}, {-0.88, -0.64}, {-0.57, -0.79}, {-0.27, -0.83}, {0.0, -0.85}, {0.28, -0.87}, {0.64, -0.88}, {0.79, -0.57}, {0.83, -0.27}}
 #define APNC_VR_STRIDE 100u /* value reference = stride * row + element */
 #define APNC_VR_TIME 9900u /* of the independent variable in FMI 3.0 */
