@@ -19,7 +19,7 @@ from apnc_core import (
     tegotae,
 )
 from apnc_core.elementary import wrap
-from apnc_core.enumerations import CouplingSign, KappaRule, Method, PhaseMeasure
+from apnc_core.enumerations import CouplingSign, ForwardModel, KappaRule, Method, PhaseMeasure
 from apnc_core.interface import Array, Inputs, Outputs, Parameters
 from apnc_core.phase_acquisition import PeakMeasure, VectorMeasure
 from apnc_core.phase_estimation import Stability, Switch
@@ -28,15 +28,20 @@ from apnc_core.variables import row
 
 @dataclass
 class Circuits:
-    """State of the legs' circuits, arrays of shape (n,); all legs start alike."""
+    """State of the legs' circuits, arrays of shape (n,); all legs start alike.
+
+    ``theta_before`` is the command that the forward model copies, at n - 1 [rad]; ``learned`` what
+    its kernels have learned, shape (n, KERNELS).
+    """
 
     o1: Array
     o2: Array
     K_f: Array
     K_s: Array
     grf_expected: Array
-    theta_hip_before: Array
+    theta_before: Array
     F_before: Array
+    learned: Array
 
     @classmethod
     def start(cls, n_legs: int, p: Parameters) -> Circuits:
@@ -53,6 +58,7 @@ class Circuits:
             alike(0.0),
             alike(math.inf),
             alike(math.inf),
+            np.zeros((n_legs, forward_model.KERNELS)),
         )
 
 
@@ -126,6 +132,8 @@ class Controller:
             return self._hold(scale, fault)
 
         theta_hip, theta_knee = motor_neurons.command(c.o1, c.o2, scale, p)
+        if p.forward_model == ForwardModel.radial_basis:
+            c.grf_expected, c.learned = forward_model.expect_learned(c.learned, c.o1, c.o2, F, p)
 
         angle = self.acquisition.update(c.o1, c.o2, p)
         d = self.stability.update(angle)
@@ -162,7 +170,8 @@ class Controller:
             K_f=c.K_f,
             K_s=c.K_s,
         )
-        self._advance(theta_hip, F, a1, a2)
+        copy = theta_knee if p.forward_model == ForwardModel.low_pass_knee else theta_hip
+        self._advance(copy, F, a1, a2)
         return outputs
 
     def _gain(self, kappa: float) -> Array:
@@ -193,14 +202,15 @@ class Controller:
         g2 = neural_coupling.couple(self.circuits.o2, phi, p.xi)
         return sign * g1, sign * g2
 
-    def _advance(self, theta_hip: Array, F: Array, a1: Array, a2: Array) -> None:
+    def _advance(self, theta: Array, F: Array, a1: Array, a2: Array) -> None:
         p, c = self.p, self.circuits
-        G = forward_model.stance_expected(theta_hip, c.theta_hip_before)
         if p.method in (Method.apnc, Method.apc):
             e = dual_rate_learner.error(F, c.grf_expected)
             c.K_f, c.K_s = dual_rate_learner.learn(c.K_f, c.K_s, e, p)
-        c.grf_expected = forward_model.expect(c.grf_expected, G, p)
-        c.theta_hip_before = theta_hip
+        if p.forward_model != ForwardModel.radial_basis:
+            G = forward_model.stance_expected(theta, c.theta_before)
+            c.grf_expected = forward_model.expect(c.grf_expected, G, p)
+        c.theta_before = theta
         c.F_before = F
         c.o1, c.o2 = oscillator.output(a1), oscillator.output(a2)
 

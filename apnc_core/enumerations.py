@@ -16,6 +16,14 @@ class Method(IntEnum):
     phase_reset = 4
 
 
+class ForwardModel(IntEnum):
+    """What the expected load is made of."""
+
+    low_pass_hip = 1
+    low_pass_knee = 2
+    radial_basis = 3
+
+
 class PhaseMeasure(IntEnum):
     """How the relative phases are measured."""
 
@@ -58,6 +66,14 @@ ENUMERATIONS: Final[tuple[Enumeration, ...]] = (
             "adaptive physical communication only, Eq. 1-11",
             "Tegotae baseline: Eq. 5 with a fixed gain",
             "phase-resetting baseline: activations set to (1, 0) at touch-down",
+        ),
+    ),
+    Enumeration(
+        ForwardModel,
+        (
+            "low-passed stance of the hip command, Eq. 10-11 as printed",
+            "Eq. 10-11 with the knee command, as the text of section 2.1.2 has it",
+            "radial basis functions of (o1, o2) that learn the load",
         ),
     ),
     Enumeration(

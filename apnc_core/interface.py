@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from apnc_core.enumerations import CouplingSign, KappaRule, Method, PhaseMeasure
+from apnc_core.enumerations import CouplingSign, ForwardModel, KappaRule, Method, PhaseMeasure
 
 Array = NDArray[np.float64]
 
@@ -41,6 +41,8 @@ class Parameters:
         B_s: learning rate of the slow learner (Eq. 8).
         alpha: scale of the expected load (Eq. 10).
         rho: shape of the expected load (Eq. 10).
+        forward_model: what the expected load is made of (Eq. 10, 11).
+        rbf_rate: learning rate of the radial-basis forward model (Eq. 10).
         phase_measure: how the relative phases are measured; the paper prints peak (Eq. 12).
         phase_filter: new part per tick in the low-pass of the vector phase measure (Eq. 12).
         N: ticks in the mean of the relative phases (Eq. 14).
@@ -83,6 +85,8 @@ class Parameters:
     B_s: float = 0.00045
     alpha: float = 0.9
     rho: float = 0.99
+    forward_model: ForwardModel = ForwardModel.low_pass_hip
+    rbf_rate: float = 0.02
     phase_measure: PhaseMeasure = PhaseMeasure.vector
     phase_filter: float = 0.02
     N: int = 50

@@ -66,4 +66,6 @@ ROW_NUMBERS: Final[dict[str, int]] = {
     "tick": 54,
     "K_f": 55,
     "K_s": 56,
+    "forward_model": 57,
+    "rbf_rate": 58,
 }

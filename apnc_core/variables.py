@@ -10,7 +10,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
-from apnc_core.enumerations import ENUMERATIONS, CouplingSign, KappaRule, Method, PhaseMeasure
+from apnc_core.enumerations import (
+    ENUMERATIONS,
+    CouplingSign,
+    ForwardModel,
+    KappaRule,
+    Method,
+    PhaseMeasure,
+)
 from apnc_core.row_numbers import ROW_NUMBERS
 from apnc_core.schema import MAX_LEGS, VR_STRIDE, Causality, Shape, Type, Variable
 
@@ -40,7 +47,7 @@ def _with(rest: dict[str, object], variability: str) -> dict[str, Any]:
 
 _PAPER = "paper"
 _SEARCH = "found by search for this robot, docs/decisions.md"
-_METHOD, _MEASURE, _RULE, _SIGN = ENUMERATIONS
+_METHOD, _MODEL, _MEASURE, _RULE, _SIGN = ENUMERATIONS
 
 TABLE: Final[tuple[Variable, ...]] = (
     _input(
@@ -156,6 +163,16 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "rho", "rho", "shape of the expected load",
         start=0.99, unit="1", min=0.0, max=1.0, nominal=1.0, equation="10", source=_PAPER,
+    ),
+    _parameter(
+        "forward_model", "", "what the expected load is made of", type=Type.enumeration,
+        enumeration=_MODEL, variability="fixed", start=ForwardModel.low_pass_hip,
+        equation="10, 11", source=_PAPER,
+    ),
+    _parameter(
+        "rbf_rate", "eta", "learning rate of the radial-basis forward model",
+        start=0.02, unit="1", min=0.0, max=1.0, nominal=0.01, equation="10",
+        source="chosen, docs/decisions.md",
     ),
     _parameter(
         "phase_measure", "", "how the relative phases are measured; the paper prints peak",

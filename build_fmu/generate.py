@@ -11,6 +11,7 @@ from typing import Final
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from apnc_core import forward_model
 from apnc_core.enumerations import ENUMERATIONS
 from apnc_core.row_numbers import ROW_NUMBERS
 from apnc_core.schema import MAX_LEGS, VR_STRIDE, VR_TIME, Causality, Shape, Type, Variable
@@ -210,6 +211,9 @@ def render() -> dict[str, str]:
         "limited": [v for v in inputs if v.min is not None],
         "max_legs": MAX_LEGS,
         "window_max": N_WINDOW_MAX,
+        "centres": forward_model.CENTRES,
+        "kernel_width": forward_model.KERNEL_WIDTH,
+        "overlap": forward_model.OVERLAP,
         "vr_stride": VR_STRIDE,
         "vr_time": VR_TIME,
         **modelica.context(),

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any, Final
 
-from apnc_core import dual_rate_learner, load, phase_reset
+from apnc_core import dual_rate_learner, forward_model, load, phase_reset
 from apnc_core.schema import MAX_LEGS, Causality, Shape, Type, Variable
 from apnc_core.variables import rows
 
@@ -45,7 +45,7 @@ GROUPS: Final[dict[str, tuple[str, ...]]] = {
     "MotorNeurons": ("a1", "a2", "b1", "b2", "turn_gain"),
     "SensoryFeedback": ("feedback_kept", "gamma_tegotae"),
     "DualRateLearner": ("A_f", "B_f", "A_s", "B_s"),
-    "ForwardModel": ("alpha", "rho"),
+    "ForwardModel": ("alpha", "rho", "forward_model", "rbf_rate"),
     "TouchDown": ("grf_reset",),
     "PhaseAcquisition": ("phase_measure", "phase_filter"),
     "KappaRule": ("kappa_rule",),
@@ -217,6 +217,21 @@ def context() -> dict[str, Any]:
             ("FORGOTTEN", dual_rate_learner.FORGOTTEN, "gains below this count as zero"),
             ("A1_AT_TOUCH_DOWN", first, "activation a1 that touch-down sets (phase_reset)"),
             ("A2_AT_TOUCH_DOWN", second, "activation a2 that touch-down sets (phase_reset)"),
+            ("KERNEL_WIDTH", forward_model.KERNEL_WIDTH, "distance squared of a kernel's 1/e"),
+            (
+                "OVERLAP",
+                forward_model.OVERLAP,
+                "mean of the kernels' sum over the angle of the cycle",
+            ),
+            *(
+                (
+                    f"CENTRES_{i + 1}[KERNELS]",
+                    "{" + ", ".join(repr(c[i]) for c in forward_model.CENTRES) + "}",
+                    f"kernels' centres along o{i + 1}",
+                )
+                for i in range(2)
+            ),
         ],
+        "kernels": forward_model.KERNELS,
         "legs_max": MAX_LEGS,
     }

@@ -42,6 +42,7 @@ STUDIES: Final = {
         Entry("symmetry", "Equal loads", "4.1.1", ("mi",)),
         Entry("gait", "How it walks", "", ("mi",)),
         Entry("sensitivity", "Numbers of the robot", "", ("change", "mi")),
+        Entry("forward_model", "Forward models", "", ("model", "mi")),
         Entry("engines", "Two engines", "", ("engine", "mi")),
         Entry("contact", "Integration step of the ground contact", "", ("depth", "steps")),
     )

@@ -14,13 +14,14 @@ extern "C" {
 
 /* Oscillators, learners and forward models of all legs. */
 typedef struct {
-    apnc_real o1[APNC_LEGS];               /* [1] neuron outputs at n, Eq. 2 */
-    apnc_real o2[APNC_LEGS];               /* [1] */
-    apnc_real K_f[APNC_LEGS];              /* [1] fast learner, Eq. 7 */
-    apnc_real K_s[APNC_LEGS];              /* [1] slow learner, Eq. 8 */
-    apnc_real grf_expected[APNC_LEGS];     /* [1] expected load over half the weight, Eq. 10 */
-    apnc_real theta_hip_before[APNC_LEGS]; /* [rad] hip command at n - 1 */
-    apnc_real F_before[APNC_LEGS];         /* [1] load over half the weight at n - 1 */
+    apnc_real o1[APNC_LEGS];                    /* [1] neuron outputs at n, Eq. 2 */
+    apnc_real o2[APNC_LEGS];                    /* [1] */
+    apnc_real K_f[APNC_LEGS];                   /* [1] fast learner, Eq. 7 */
+    apnc_real K_s[APNC_LEGS];                   /* [1] slow learner, Eq. 8 */
+    apnc_real grf_expected[APNC_LEGS];          /* [1] expected load over half the weight, Eq. 10 */
+    apnc_real theta_before[APNC_LEGS];          /* [rad] command that is copied, at n - 1 */
+    apnc_real F_before[APNC_LEGS];              /* [1] load over half the weight at n - 1 */
+    apnc_real learned[APNC_LEGS][APNC_KERNELS]; /* [1] by the kernels of the forward model */
 } apnc_circuits;
 
 /* Acquisition of the phase relations, Eq. 12. */

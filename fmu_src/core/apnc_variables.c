@@ -71,4 +71,6 @@ const apnc_row apnc_rows[APNC_ROWS] = {
     {"tick", "tick", "", AT(outputs, tick), 1, APNC_INTEGER, APNC_OUTPUT, 0.0, 1.0, -1.0},
     {"K_f", LEG("K_f"), AT(outputs, K_f), APNC_LEGS, APNC_REAL, APNC_LOCAL, 0.0, 1.0, -1.0},
     {"K_s", LEG("K_s"), AT(outputs, K_s), APNC_LEGS, APNC_REAL, APNC_LOCAL, 0.0, 1.0, -1.0},
+    {"forward_model", "forward_model", "", AT(parameters, forward_model), 1, APNC_ENUMERATION, APNC_FIXED, 1.0, 1.0, 3.0},
+    {"rbf_rate", "rbf_rate", "", AT(parameters, rbf_rate), 1, APNC_REAL, APNC_TUNABLE, 0.02, 0.0, 1.0},
 };

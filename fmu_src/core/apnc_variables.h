@@ -16,9 +16,13 @@
 
 #define APNC_RELATIONS (APNC_LEGS - 1) /* phase relations phi_1k, k = 2 ... APNC_LEGS */
 #define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
+#define APNC_KERNELS 20 /* radial basis functions of the forward model */
+#define APNC_KERNEL_WIDTH 0.04 /* distance squared at which they fall to 1/e */
+#define APNC_OVERLAP 1.15 /* mean of their sum over the angle of the cycle */
+#define APNC_CENTRES {{0.85, 0.0}, {0.87, 0.28}, {0.88, 0.64}, {0.57, 0.79}, {0.27, 0.83}, {0.0, 0.85}, {-0.28, 0.87}, {-0.64, 0.88}, {-0.79, 0.57}, {-0.83, 0.27}, {-0.85, 0.0}, {-0.87, -0.28}, {-0.88, -0.64}, {-0.57, -0.79}, {-0.27, -0.83}, {0.0, -0.85}, {0.28, -0.87}, {0.64, -0.88}, {0.79, -0.57}, {0.83, -0.27}}
 #define APNC_VR_STRIDE 100u /* value reference = stride * row + element */
 #define APNC_VR_TIME 9900u /* of the independent variable in FMI 3.0 */
-#define APNC_ROWS 57
+#define APNC_ROWS 59
 
 #ifdef APNC_SINGLE
 typedef float apnc_real;
@@ -39,6 +43,12 @@ typedef enum {
     APNC_METHOD_TEGOTAE = 3, /* Tegotae baseline: Eq. 5 with a fixed gain */
     APNC_METHOD_PHASE_RESET = 4, /* phase-resetting baseline: activations set to (1, 0) at touch-down */
 } apnc_method;
+
+typedef enum {
+    APNC_FORWARD_MODEL_LOW_PASS_HIP = 1, /* low-passed stance of the hip command, Eq. 10-11 as printed */
+    APNC_FORWARD_MODEL_LOW_PASS_KNEE = 2, /* Eq. 10-11 with the knee command, as the text of section 2.1.2 has it */
+    APNC_FORWARD_MODEL_RADIAL_BASIS = 3, /* radial basis functions of (o1, o2) that learn the load */
+} apnc_forward_model;
 
 typedef enum {
     APNC_PHASE_MEASURE_VECTOR = 1, /* low-passed angle between the vectors (o1, o2) of two legs */
@@ -77,6 +87,8 @@ typedef struct {
     apnc_real B_s; /* [1] Eq. 8: learning rate of the slow learner */
     apnc_real alpha; /* [1] Eq. 10: scale of the expected load */
     apnc_real rho; /* [1] Eq. 10: shape of the expected load */
+    int32_t forward_model; /* Eq. 10, 11: what the expected load is made of */
+    apnc_real rbf_rate; /* [1] Eq. 10: learning rate of the radial-basis forward model */
     int32_t phase_measure; /* Eq. 12: how the relative phases are measured; the paper prints peak */
     apnc_real phase_filter; /* [1] Eq. 12: new part per tick in the low-pass of the vector phase measure */
     int32_t N; /* Eq. 14: ticks in the mean of the relative phases */

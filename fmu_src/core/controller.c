@@ -40,7 +40,7 @@ void apnc_reset(const apnc_parameters *p, apnc_state *state) {
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         c->o1[leg] = p->o1_start;
         c->o2[leg] = p->o2_start;
-        c->theta_hip_before[leg] = (apnc_real)INFINITY;
+        c->theta_before[leg] = (apnc_real)INFINITY;
         c->F_before[leg] =
             (apnc_real)INFINITY; /* a robot that already stands does not touch down */
     }
@@ -180,13 +180,21 @@ static void learn(const apnc_parameters *restrict p, apnc_circuits *restrict c,
     }
 }
 
+/* theta: the commands that are copied [rad]. */
 static void expect(const apnc_parameters *restrict p, apnc_circuits *restrict c,
-                   const apnc_real *restrict theta_hip) {
+                   const apnc_real *restrict theta) {
     for (int leg = 0; leg < APNC_LEGS; leg++) {
-        const apnc_real G = apnc_stance_expected(theta_hip[leg], c->theta_hip_before[leg]);
+        const apnc_real G = apnc_stance_expected(theta[leg], c->theta_before[leg]);
         c->grf_expected[leg] = apnc_expect(p, c->grf_expected[leg], G);
-        c->theta_hip_before[leg] = theta_hip[leg];
+        c->theta_before[leg] = theta[leg];
     }
+}
+
+static void expect_learned(const apnc_parameters *restrict p, apnc_circuits *restrict c,
+                           const apnc_real *restrict F) {
+    for (int leg = 0; leg < APNC_LEGS; leg++)
+        c->grf_expected[leg] =
+            apnc_expect_learned(p, c->o1[leg], c->o2[leg], F[leg], c->learned[leg]);
 }
 
 static void restart_at_touch_down(const apnc_parameters *p, const apnc_circuits *c,
@@ -211,7 +219,10 @@ static void advance(const apnc_parameters *restrict p, apnc_state *restrict stat
     }
     if (p->method == APNC_METHOD_PHASE_RESET) restart_at_touch_down(p, c, F, a1, a2);
     if (p->method == APNC_METHOD_APNC || p->method == APNC_METHOD_APC) learn(p, c, F);
-    expect(p, c, out->theta_hip);
+    if (p->forward_model != APNC_FORWARD_MODEL_RADIAL_BASIS)
+        expect(p, c,
+               p->forward_model == APNC_FORWARD_MODEL_LOW_PASS_KNEE ? out->theta_knee
+                                                                    : out->theta_hip);
     memcpy(c->F_before, F, sizeof c->F_before);
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         c->o1[leg] = apnc_output(a1[leg]);
@@ -238,6 +249,8 @@ void apnc_tick(const apnc_parameters *p, apnc_state *state, const apnc_inputs *i
         apnc_reset(p, state);
         observe_rest(p, state, out);
     } else {
+        if (p->forward_model == APNC_FORWARD_MODEL_RADIAL_BASIS)
+            expect_learned(p, &state->circuits, F);
         observe(p, state, out);
         communicate(p, state, angle, out);
         evaluate(c, out->kappa > 0, &t);

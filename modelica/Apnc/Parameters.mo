@@ -101,6 +101,12 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Real rho(unit="1", min=0.0, max=1.0)=0.99
       "shape of the expected load (Eq. 10)"
       annotation (Dialog(group="ForwardModel"));
+    parameter Types.ForwardModel forward_model=Types.ForwardModel.low_pass_hip
+      "what the expected load is made of (Eq. 10, 11)"
+      annotation (Dialog(group="ForwardModel"));
+    parameter Real rbf_rate(unit="1", min=0.0, max=1.0)=0.02
+      "learning rate of the radial-basis forward model (Eq. 10)"
+      annotation (Dialog(group="ForwardModel"));
   end ForwardModel;
 
   record TouchDown "Parameters: TouchDown"

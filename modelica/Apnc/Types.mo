@@ -21,6 +21,12 @@ package Types "Physical quantities and choices; generated from the table of vari
     phase_reset "phase-resetting baseline: activations set to (1, 0) at touch-down")
     "Which controller runs";
 
+  type ForwardModel = enumeration(
+    low_pass_hip "low-passed stance of the hip command, Eq. 10-11 as printed",
+    low_pass_knee "Eq. 10-11 with the knee command, as the text of section 2.1.2 has it",
+    radial_basis "radial basis functions of (o1, o2) that learn the load")
+    "What the expected load is made of";
+
   type PhaseMeasure = enumeration(
     vector "low-passed angle between the vectors (o1, o2) of two legs",
     peak "times of the peaks of o1, Eq. 12")

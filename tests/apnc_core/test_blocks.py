@@ -17,7 +17,7 @@ from apnc_core import (
 )
 from apnc_core.controller import Controller
 from apnc_core.elementary import angle_of
-from apnc_core.enumerations import CouplingSign, KappaRule, Method
+from apnc_core.enumerations import CouplingSign, ForwardModel, KappaRule, Method
 from apnc_core.interface import Inputs, Parameters
 from apnc_core.phase_acquisition import PeakMeasure, VectorMeasure
 from apnc_core.phase_estimation import Stability, Switch
@@ -134,6 +134,78 @@ def test_forward_model_fixed_points() -> None:
 def test_forward_model_expects_stance_while_the_hip_does_not_rise() -> None:
     G = forward_model.stance_expected(np.array([0.1, 0.2, 0.2]), np.array([0.2, 0.1, 0.2]))
     assert G.tolist() == [1.0, 0.0, 1.0]
+
+
+RADIAL = {"forward_model": ForwardModel.radial_basis}
+
+
+def unloaded_cycle(ticks: int = 300) -> tuple[np.ndarray, np.ndarray]:
+    """Outputs of a free oscillator on its cycle at MI = 0.08."""
+    c = Controller()
+    both = [(o.o1[0], o.o2[0]) for o in (c.tick(Inputs(NO_LOAD)) for _ in range(500 + ticks))]
+    o1, o2 = np.array(both[500:]).T
+    return o1, o2
+
+
+def test_the_knees_copy_expects_stance_a_quarter_of_a_cycle_earlier() -> None:
+    def mean_phase(model: ForwardModel) -> complex:
+        c = Controller(Parameters(forward_model=model))
+        ticks = [c.tick(Inputs(NO_LOAD)) for _ in range(3000)][500:]
+        return sum(o.grf_expected[0] * complex(o.o1[0], o.o2[0]) for o in ticks)
+
+    # the cycle turns clockwise, so what comes earlier lies further on counter-clockwise
+    earlier = mean_phase(ForwardModel.low_pass_knee) / mean_phase(ForwardModel.low_pass_hip)
+    assert np.angle(earlier) == pytest.approx(math.pi / 2, abs=0.1)
+
+
+def test_kernels_lie_on_the_cycle_and_overlap_evenly() -> None:
+    o1, o2 = unloaded_cycle(2000)
+    for x, y in forward_model.CENTRES:
+        assert np.hypot(o1 - x, o2 - y).min() < 0.03
+    p = Parameters(alpha=0.0, **RADIAL)
+    ones = np.ones((len(o1), forward_model.KERNELS))
+    total, _ = forward_model.expect_learned(ones, o1, o2, 0 * o1, p)
+    angle = np.arctan2(o2, o1)
+    order, even = np.argsort(angle), np.linspace(-np.pi, np.pi, 1000)
+    mean = np.interp(even, angle[order], total[order]).mean()
+    assert mean == pytest.approx(forward_model.OVERLAP, abs=0.005)
+    # no gap: at equal times instead of equal angles it would fall to 0.3
+    assert total.min() > 0.85 and total.max() < 1.4
+
+
+def test_kernels_start_at_the_expectation_of_the_hip() -> None:
+    o1, o2 = unloaded_cycle()
+    nothing = np.zeros((len(o1), forward_model.KERNELS))
+    expected, _ = forward_model.expect_learned(nothing, o1, o2, 0 * o1, P)
+    assert expected[o2 < -0.3] == pytest.approx(P.alpha, rel=0.25)
+    assert np.abs(expected[o2 > 0.3]).max() < 0.01
+
+
+def test_kernels_learn_the_load_of_a_walk() -> None:
+    o1, o2 = unloaded_cycle(4000)
+    load_of = 0.5 * (o2 < 0.2) * (1.0 - 0.4 * o1)
+    learned, errors = np.zeros((1, forward_model.KERNELS)), []
+    p = Parameters(rbf_rate=0.05, **RADIAL)
+    for x, y, F in zip(o1, o2, load_of, strict=True):
+        expected, learned = forward_model.expect_learned(
+            learned, np.array([x]), np.array([y]), np.array([F]), p
+        )
+        errors.append(float(F - expected[0]))
+    first, last = (np.sqrt(np.mean(np.square(part))) for part in (errors[:84], errors[-84:]))
+    # what is left is the jump, which no smooth kernel follows
+    assert last < 0.35 * first
+
+
+def test_what_the_kernels_learned_is_kept_between_ticks_and_forgotten_at_a_reset() -> None:
+    c, loads = Controller(Parameters(**RADIAL)), np.full(4, 5.0)
+    for _ in range(200):
+        c.tick(Inputs(loads))
+    assert np.abs(c.circuits.learned).max() > 0.1
+    c.tick(Inputs(loads, reset=True))
+    assert not c.circuits.learned.any()
+    fresh = Controller(Parameters(**RADIAL))
+    again, first = (k.tick(Inputs(loads)).grf_expected for k in (c, fresh))
+    assert again.tolist() == first.tolist()
 
 
 def shifted_oscillators(phi: tuple[float, ...], ticks: int) -> tuple[np.ndarray, np.ndarray]:

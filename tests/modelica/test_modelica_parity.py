@@ -12,7 +12,7 @@ from modelica_runs import LIBRARY, Run, driven, run
 from slave import TS, slave
 
 from apnc_core.controller import Controller
-from apnc_core.enumerations import CouplingSign, KappaRule, Method, PhaseMeasure
+from apnc_core.enumerations import CouplingSign, ForwardModel, KappaRule, Method, PhaseMeasure
 from apnc_core.interface import Inputs, Parameters
 from apnc_core.presets import preset
 from apnc_core.schema import Causality, Shape
@@ -25,12 +25,15 @@ OUTPUTS = rows(Causality.output) + rows(Causality.local)
 # sigma and hold are such that the couplings switch on early in the run
 COUPLED = {"kappa_hold": 10, "sigma": 1.0}
 PEAKS = {"phase_measure": PhaseMeasure.peak, **COUPLED}
+RADIAL = {"forward_model": ForwardModel.radial_basis, "rbf_rate": 0.1, **COUPLED}
 METHODS = {m.name: {"method": m, **COUPLED} for m in Method}
 CASES = METHODS | {
     "peak measure": PEAKS,
     "printed kappa rule": {"kappa_rule": KappaRule.printed},
     "live phases": {"phi_frozen": False, **COUPLED},
     "printed sign": {"coupling_sign": CouplingSign.printed, **COUPLED},
+    "knee's copy": {"forward_model": ForwardModel.low_pass_knee, **COUPLED},
+    "radial basis": RADIAL,
     "bias": {"bias": 0.01, **COUPLED},
     "stored": {"stored": True, "phi_stored": (3.1, 3.2, 0.1)},
 }
@@ -41,7 +44,7 @@ def literal(value: object) -> str:
         return str(value).lower()
     if isinstance(value, tuple):
         return "{" + ", ".join(map(literal, value)) + "}"
-    if isinstance(value, (Method, PhaseMeasure, KappaRule, CouplingSign)):
+    if isinstance(value, (Method, ForwardModel, PhaseMeasure, KappaRule, CouplingSign)):
         return f"Apnc.Types.{type(value).__name__}.{value.name}"
     return repr(value)
 
@@ -152,6 +155,8 @@ MUTATIONS: dict[str, tuple[str, str, dict[str, object]]] = {
     "Blocks/Controller.mo": ("i <= div(n, 2)", "i < div(n, 2)", {}),
     "Functions/couple.mo": ("+ cos(o[k]) * sin", "- cos(o[k]) * sin", COUPLED),
     "Functions/vectorAngles.mo": ("x[r] > 0.0 then atan", "x[r] > 0.0 then -atan", {}),
+    "Functions/kernels.mo": ("(o2 - Constants", "(o1 - Constants", RADIAL),
+    "Functions/stanceWeights.mo": ("< 0.0", "> 0.0", RADIAL),
     "Functions/wrap.mo": ("then angle[r] + 2.0", "then angle[r] - 2.0", {}),
     "Functions/mean.mo": ("/ size(window, 1)", "/ (size(window, 1) + 1)", {}),
     "Functions/peakTimes.mo": ("before[k] >= o1[k]", "before[k] < o1[k]", PEAKS),

@@ -81,7 +81,7 @@ def compare(
 # bit of d decides.
 _LIKELY: Final = {
     "Ts": (1e-3, 0.1), "robot_weight": (1.0, 1e3), "F_max": (0.1, 3.0), "w11": (1.2, 2.0),
-    "w12_0": (0.0, 0.5), "bias": (-0.1, 0.1), "sigma": (0.05, 1.0), "kappa_hold": (1, 20),
+    "w12_0": (0.0, 0.5), "bias": (-0.1, 0.1), "sigma": (0.05, 2.0), "kappa_hold": (1, 20),
     "gamma_tegotae": (0.0, 0.5), "grf_reset": (0.8, 2.0), "B_f": (0.0, 0.5), "xi": (0.001, 0.1),
 }  # fmt: skip
 # most rules belong to the method of the paper

@@ -30,6 +30,8 @@ block Controller "The adaptive neural controller of a legged robot"
     each B_s=B_s,
     each alpha=alpha,
     each rho=rho,
+    each forward_model=forward_model,
+    each rbf_rate=rbf_rate,
     each grf_reset=grf_reset,
     right={i <= div(n, 2) for i in 1:n}) "the legs, the right ones first"
     annotation (Placement(transformation(extent={{-47,22},{-19,50}})));

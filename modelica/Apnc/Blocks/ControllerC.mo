@@ -25,6 +25,8 @@ protected
       B_s,
       alpha,
       rho,
+      forward_model,
+      rbf_rate,
       phase_measure,
       phase_filter,
       N,

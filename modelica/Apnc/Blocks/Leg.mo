@@ -83,7 +83,9 @@ block Leg "Leg: the circuits of one leg"
     Ts=Ts,
     startTime=startTime,
     alpha=alpha,
-    rho=rho) "expected load"
+    rho=rho,
+    forward_model=forward_model,
+    rbf_rate=rbf_rate) "expected load"
     annotation (Placement(transformation(extent={{40,0},{80,40}})));
   DualRateLearner learner(
     Ts=Ts,
@@ -135,7 +137,15 @@ equation
   connect(turn, motorNeurons.turn)
     annotation (Line(points={{-210,100},{-10,100},{-10,69.4},{-4,69.4}}, color={0,0,127}));
   connect(motorNeurons.theta_hip, forwardModel.theta_hip)
-    annotation (Line(points={{42,88},{50,88},{50,20},{36,20}}, color={0,0,127}));
+    annotation (Line(points={{42,88},{50,88},{50,48},{30,48},{30,36},{36,36}}, color={0,0,127}));
+  connect(motorNeurons.theta_knee, forwardModel.theta_knee)
+    annotation (Line(points={{42,72},{52,72},{52,46},{28,46},{28,28},{36,28}}, color={0,0,127}));
+  connect(oscillator.o1, forwardModel.o1)
+    annotation (Line(points={{-38,68},{24,68},{24,20},{36,20}}, color={0,0,127}));
+  connect(oscillator.o2, forwardModel.o2)
+    annotation (Line(points={{-38,52},{22,52},{22,12},{36,12}}, color={0,0,127}));
+  connect(footLoad.F, forwardModel.F)
+    annotation (Line(points={{-128,-52},{26,-52},{26,4},{36,4}}, color={0,0,127}));
   connect(forwardModel.grf_expected, learner.grf_expected)
     annotation (Line(points={{82,20},{76,20},{76,-48},{86,-48}}, color={0,0,127}));
   connect(learner.gamma, feedback.learned)

@@ -25,6 +25,8 @@ class State "State of the C core; generated from the table of variables, do not 
     input Real B_s "learning rate of the slow learner (Eq. 8)";
     input Real alpha "scale of the expected load (Eq. 10)";
     input Real rho "shape of the expected load (Eq. 10)";
+    input Types.ForwardModel forward_model "what the expected load is made of (Eq. 10, 11)";
+    input Real rbf_rate "learning rate of the radial-basis forward model (Eq. 10)";
     input Types.PhaseMeasure phase_measure "how the relative phases are measured; the paper prints peak (Eq. 12)";
     input Real phase_filter "new part per tick in the low-pass of the vector phase measure (Eq. 12)";
     input Integer N "ticks in the mean of the relative phases (Eq. 14)";
@@ -63,6 +65,8 @@ class State "State of the C core; generated from the table of variables, do not 
       B_s,
       alpha,
       rho,
+      forward_model,
+      rbf_rate,
       phase_measure,
       phase_filter,
       N,

@@ -53,6 +53,8 @@ class Variables "Variables; generated from the table of variables, do not edit"
 <tr><td>B_s</td><td>1</td><td>0.00045</td><td>0.0002</td><td>0 ... 1</td><td>8</td><td>learning rate of the slow learner</td><td>found by search for this robot, docs/decisions.md</td></tr>
 <tr><td>alpha</td><td>1</td><td>0.9</td><td></td><td>0 ... 1</td><td>10</td><td>scale of the expected load</td><td>paper</td></tr>
 <tr><td>rho</td><td>1</td><td>0.99</td><td></td><td>0 ... 1</td><td>10</td><td>shape of the expected load</td><td>paper</td></tr>
+<tr><td>forward_model</td><td></td><td>ForwardModel.low_pass_hip</td><td></td><td></td><td>10, 11</td><td>what the expected load is made of</td><td>paper</td></tr>
+<tr><td>rbf_rate</td><td>1</td><td>0.02</td><td></td><td>0 ... 1</td><td>10</td><td>learning rate of the radial-basis forward model</td><td>chosen, docs/decisions.md</td></tr>
 <tr><td>phase_measure</td><td></td><td>PhaseMeasure.vector</td><td>PhaseMeasure.peak</td><td></td><td>12</td><td>how the relative phases are measured; the paper prints peak</td><td>authors' code</td></tr>
 <tr><td>phase_filter</td><td>1</td><td>0.02</td><td>0.05</td><td>0.0001 ... 1</td><td>12</td><td>new part per tick in the low-pass of the vector phase measure</td><td>chosen; at the authors' 0.05 phases sway by more than sigma at MI &lt; 0.08</td></tr>
 <tr><td>N</td><td></td><td>50</td><td></td><td>1 ... 256</td><td>14</td><td>ticks in the mean of the relative phases</td><td>paper</td></tr>

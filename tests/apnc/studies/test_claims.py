@@ -11,7 +11,18 @@ import pytest
 from made_up_rows import Row, made_up
 from scipy import stats
 
-from apnc.studies import conditions, damage, gains, mi, rate, states, steering, symmetry, terrain
+from apnc.studies import (
+    conditions,
+    damage,
+    forward_model,
+    gains,
+    mi,
+    rate,
+    states,
+    steering,
+    symmetry,
+    terrain,
+)
 from apnc.studies.claims import (
     FEW,
     NO,
@@ -685,6 +696,55 @@ def test_the_other_figures_are_told() -> None:
     assert measured(symmetry.in_phase, apart(None, 3.0, 5.0)) == (
         "together in 1 of 3; parted after 4.0 (3.0 ... 5.0) s, n = 2 of 3; "
         "trot after 4.0 (3.0 ... 5.0) s, n = 2 of 3"
+    )
+
+
+def of_models(**figures: Any) -> list[Row]:
+    """Walks with every forward model; a figure is a number, or a function of the cell."""
+    axes = {"model": tuple(forward_model.MODELS), "mi": (0.08, 0.15)}
+    return made_up(
+        axes,
+        lambda cell: {k: v(cell) if callable(v) else v for k, v in figures.items()},
+        ("apnc",),
+        study="forward_model",
+    )
+
+
+@pytest.mark.parametrize("model", ["low_pass_knee", "radial_basis"])
+@pytest.mark.parametrize(
+    ("failing", "expected"), [(0, YES), (1, PARTLY), (6, NO)], ids=["none", "one", "half"]
+)
+def test_a_forward_model_forms_the_gait(model: str, failing: int, expected: str) -> None:
+    def time(cell: Row) -> float | None:
+        lost = cell["model"] == model and cell["mi"] == 0.15 and cell["seed"] < failing
+        return None if lost else 2.0
+
+    rows = of_models(**{STRICT: time, AUTHORS: time})
+    assert forward_model.forms(model)(rows).verdict == expected
+    other = "radial_basis" if model == "low_pass_knee" else "low_pass_knee"
+    assert forward_model.forms(other)(rows).verdict == YES
+
+
+@pytest.mark.parametrize(
+    ("late", "expected"), [(0.02, YES), (0.08, PARTLY), (0.12, NO), (None, NO)]
+)
+def test_the_gain_falls_of_itself(late: float | None, expected: str) -> None:
+    rows = of_models(
+        gain_forming=0.1, gain_late=lambda c: late if c["model"] == "radial_basis" else 0.02
+    )
+    assert forward_model.gain_falls("radial_basis")(rows).verdict == expected
+    assert forward_model.gain_falls("low_pass_hip")(rows).verdict == YES
+
+
+def test_the_figures_of_the_forward_models_are_told() -> None:
+    rows = of_models(gain_forming=0.1, gain_late=0.025)
+    assert measured(forward_model.gain_falls("radial_basis"), rows) == (
+        "0.100 (0.100 ... 0.100), late 0.025 (0.025 ... 0.025), ratio 0.25 (0.25 ... 0.25), n = 12"
+    )
+    rows = of_models(**{STRICT: 2.0, AUTHORS: None})
+    assert measured(forward_model.forms("radial_basis"), rows) == (
+        "strict: 12/12 (74 ... 100 %), 2.0 (2.0 ... 2.0) s, with the hip's 2.0 (2.0 ... 2.0) s; "
+        "authors': 0/12 (0 ... 26 %), -, with the hip's -"
     )
 
 

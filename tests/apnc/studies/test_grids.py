@@ -16,6 +16,7 @@ from apnc.studies.contenders import ALL, RIVALS, contender
 from apnc.studies.engine import grid_of
 from apnc.studies.registry import STUDIES, load, names_of
 from apnc.studies.study import Trial
+from apnc_core.enumerations import ForwardModel
 from exudyn_models.robot import load_robot
 
 LILIBOT = load_robot("lilibot")
@@ -67,7 +68,7 @@ def test_a_trial_is_what_its_cell_says(name: str) -> None:
         assert trial.experiment.seed == trial.cell["seed"]
         assert trial.experiment.preset == "robot"
         assert trial.experiment.description.name == "lilibot"
-        if name not in ("gains", "steering"):  # which set something themselves
+        if name not in ("gains", "steering", "forward_model"):  # which set something themselves
             settings = contender(trial.cell["method"]).settings_in(name)
             assert dict(trial.experiment.settings) == dict(settings)
 
@@ -114,8 +115,20 @@ def test_equal_loads_are_walked_once_per_mi() -> None:
         assert robot.mass == LILIBOT.mass and not trial.experiment.settings
 
 
+def test_forward_models_differ_in_nothing_else() -> None:
+    trials = grid_of("forward_model", 2)
+    assert count("forward_model") == {
+        ("apnc", model.name, mi): 2 for model in ForwardModel for mi in (0.08, 0.15, 0.24)
+    }
+    for trial in trials:
+        parameters = trial.experiment.parameters()
+        assert parameters["forward_model"] == ForwardModel[trial.cell["model"]]
+        assert trial.experiment.duration == 25.0
+        assert set(trial.experiment.settings) == {"forward_model"}
+
+
 def test_the_paper_is_all_of_its_experiments() -> None:
-    ours = ("sensitivity", "contact", "engines")
+    ours = ("gait", "sensitivity", "forward_model", "contact", "engines")
     assert names_of("all") == [name for name in STUDIES if name not in ours]
     assert {t.study for t in grid_of("all", 1)} == set(names_of("all"))
 

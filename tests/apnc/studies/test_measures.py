@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from records import TROT, outputs, synthetic_record
 
 from apnc.loop.record import End, Record
-from apnc.studies import contact, gains, steering, symmetry
+from apnc.studies import contact, forward_model, gains, steering, symmetry
 from apnc.studies.contact.measure import Trot, chatter, errors, touch_down
 from apnc.studies.engine import measured
 from apnc.studies.rows import Row
@@ -475,3 +475,31 @@ def test_a_fall_and_a_divergence_are_told_in_the_row() -> None:
     assert fell["convergence_time_s"] is None
     broken = replace(synthetic_record(5.0), end=End.diverged, message="it diverged")
     assert measured("mi", broken)["error"] == "it diverged"
+
+
+# --- forward models ----------------------------------------------------------------------------
+
+
+def gains(stored: float, duration: float = 25.0) -> Record:
+    """A walk whose K_f + K_s is 0.1 on half of the legs until kappa = 1, and 0.02 on all after."""
+    base = synthetic_record(duration)
+    on = base.time >= stored
+    K = np.where(on[:, None], 0.01, [0.05, 0.0, 0.05, 0.0])
+    experiment = replace(base.experiment, duration=duration)
+    controller = base.controller | {"K_f": K, "K_s": K, "kappa": 1.0 * on}
+    return replace(base, experiment=experiment, controller=controller)
+
+
+def test_the_gain_is_that_of_equation_9_before_and_late() -> None:
+    found = forward_model.measure(gains(6.0))
+    assert found == pytest.approx({"gain_forming": 0.05, "gain_late": 0.02})
+
+
+@pytest.mark.parametrize("stored", [0.0, 21.0, 99.0])
+def test_no_gain_without_a_before_and_a_late_part(stored: float) -> None:
+    assert forward_model.measure(gains(stored)) == {"gain_forming": None, "gain_late": None}
+
+
+def test_no_gain_of_a_run_that_fell() -> None:
+    fell = replace(gains(6.0), end=End.fell)
+    assert forward_model.measure(fell) == {"gain_forming": None, "gain_late": None}

@@ -81,9 +81,13 @@
 
 #define APNC_RELATIONS (APNC_LEGS - 1) /* phase relations phi_1k, k = 2 ... APNC_LEGS */
 #define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
+#define APNC_KERNELS 20 /* radial basis functions of the forward model */
+#define APNC_KERNEL_WIDTH 0.04 /* distance squared at which they fall to 1/e */
+#define APNC_OVERLAP 1.15 /* mean of their sum over the angle of the cycle */
+#define APNC_CENTRES {{0.85, 0.0}, {0.87, 0.28}, {0.88, 0.64}, {0.57, 0.79}, {0.27, 0.83}, {0.0, 0.85}, {-0.28, 0.87}, {-0.64, 0.88}, {-0.79, 0.57}, {-0.83, 0.27}, {-0.85, 0.0}, {-0.87, -0.28}, {-0.88, -0.64}, {-0.57, -0.79}, {-0.27, -0.83}, {0.0, -0.85}, {0.28, -0.87}, {0.64, -0.88}, {0.79, -0.57}, {0.83, -0.27}}
 #define APNC_VR_STRIDE 100u /* value reference = stride * row + element */
 #define APNC_VR_TIME 9900u /* of the independent variable in FMI 3.0 */
-#define APNC_ROWS 57
+#define APNC_ROWS 59
 
 #ifdef APNC_SINGLE
 typedef float apnc_real;
@@ -104,6 +108,12 @@ typedef enum {
     APNC_METHOD_TEGOTAE = 3, /* Tegotae baseline: Eq. 5 with a fixed gain */
     APNC_METHOD_PHASE_RESET = 4, /* phase-resetting baseline: activations set to (1, 0) at touch-down */
 } apnc_method;
+
+typedef enum {
+    APNC_FORWARD_MODEL_LOW_PASS_HIP = 1, /* low-passed stance of the hip command, Eq. 10-11 as printed */
+    APNC_FORWARD_MODEL_LOW_PASS_KNEE = 2, /* Eq. 10-11 with the knee command, as the text of section 2.1.2 has it */
+    APNC_FORWARD_MODEL_RADIAL_BASIS = 3, /* radial basis functions of (o1, o2) that learn the load */
+} apnc_forward_model;
 
 typedef enum {
     APNC_PHASE_MEASURE_VECTOR = 1, /* low-passed angle between the vectors (o1, o2) of two legs */
@@ -142,6 +152,8 @@ typedef struct {
     apnc_real B_s; /* [1] Eq. 8: learning rate of the slow learner */
     apnc_real alpha; /* [1] Eq. 10: scale of the expected load */
     apnc_real rho; /* [1] Eq. 10: shape of the expected load */
+    int32_t forward_model; /* Eq. 10, 11: what the expected load is made of */
+    apnc_real rbf_rate; /* [1] Eq. 10: learning rate of the radial-basis forward model */
     int32_t phase_measure; /* Eq. 12: how the relative phases are measured; the paper prints peak */
     apnc_real phase_filter; /* [1] Eq. 12: new part per tick in the low-pass of the vector phase measure */
     int32_t N; /* Eq. 14: ticks in the mean of the relative phases */
@@ -395,13 +407,14 @@ extern "C" {
 
 /* Oscillators, learners and forward models of all legs. */
 typedef struct {
-    apnc_real o1[APNC_LEGS];               /* [1] neuron outputs at n, Eq. 2 */
-    apnc_real o2[APNC_LEGS];               /* [1] */
-    apnc_real K_f[APNC_LEGS];              /* [1] fast learner, Eq. 7 */
-    apnc_real K_s[APNC_LEGS];              /* [1] slow learner, Eq. 8 */
-    apnc_real grf_expected[APNC_LEGS];     /* [1] expected load over half the weight, Eq. 10 */
-    apnc_real theta_hip_before[APNC_LEGS]; /* [rad] hip command at n - 1 */
-    apnc_real F_before[APNC_LEGS];         /* [1] load over half the weight at n - 1 */
+    apnc_real o1[APNC_LEGS];                    /* [1] neuron outputs at n, Eq. 2 */
+    apnc_real o2[APNC_LEGS];                    /* [1] */
+    apnc_real K_f[APNC_LEGS];                   /* [1] fast learner, Eq. 7 */
+    apnc_real K_s[APNC_LEGS];                   /* [1] slow learner, Eq. 8 */
+    apnc_real grf_expected[APNC_LEGS];          /* [1] expected load over half the weight, Eq. 10 */
+    apnc_real theta_before[APNC_LEGS];          /* [rad] command that is copied, at n - 1 */
+    apnc_real F_before[APNC_LEGS];              /* [1] load over half the weight at n - 1 */
+    apnc_real learned[APNC_LEGS][APNC_KERNELS]; /* [1] by the kernels of the forward model */
 } apnc_circuits;
 
 /* Acquisition of the phase relations, Eq. 12. */
@@ -495,14 +508,36 @@ static inline apnc_real apnc_gain(apnc_real K_f, apnc_real K_s) { return K_f + K
 #define APNC_FORWARD_MODEL_H
 
 
-/* G(n): 1 while the hip command does not rise, else 0 (Eq. 11). */
-static inline apnc_real apnc_stance_expected(apnc_real theta_hip, apnc_real theta_hip_before) {
-    return theta_hip <= theta_hip_before ? 1 : 0;
+/* G(n): 1 while the command, of the hip or of the knee, does not rise, else 0 (Eq. 11). */
+static inline apnc_real apnc_stance_expected(apnc_real theta, apnc_real theta_before) {
+    return theta <= theta_before ? 1 : 0;
 }
 
 /* F^e(n+1) = alpha (rho G(n) + (1 - rho) F^e(n)) (Eq. 10). */
 static inline apnc_real apnc_expect(const apnc_parameters *p, apnc_real grf_expected, apnc_real G) {
     return p->alpha * (p->rho * G + (1 - p->rho) * grf_expected);
+}
+
+/* exp(-(d1^2 + d2^2) / width), by tanh. */
+static inline apnc_real apnc_kernel(apnc_real d1, apnc_real d2) {
+    const apnc_real t = apnc_tanh((d1 * d1 + d2 * d2) * (apnc_real)(0.5 / APNC_KERNEL_WIDTH));
+    return (1 - t) / (1 + t);
+}
+
+/* Radial basis functions: F^e(n) = sum w_k phi_k from (o1, o2) at n, after which the weights learn
+ * from the load F at n. learned: change of the weights since the start. */
+static inline apnc_real apnc_expect_learned(const apnc_parameters *p, apnc_real o1, apnc_real o2,
+                                            apnc_real F, apnc_real *learned) {
+    static const apnc_real centre[APNC_KERNELS][2] = APNC_CENTRES;
+    const apnc_real stance = p->alpha / (apnc_real)APNC_OVERLAP;
+    apnc_real kernel[APNC_KERNELS], expected = 0;
+    for (int k = 0; k < APNC_KERNELS; k++)
+        kernel[k] = apnc_kernel(o1 - centre[k][0], o2 - centre[k][1]);
+    for (int k = 0; k < APNC_KERNELS; k++)
+        expected += ((centre[k][1] < 0 ? stance : 0) + learned[k]) * kernel[k];
+    const apnc_real step = p->rbf_rate * (F - expected);
+    for (int k = 0; k < APNC_KERNELS; k++) learned[k] += step * kernel[k];
+    return expected;
 }
 
 #endif
@@ -752,7 +787,7 @@ static void apnc_reset(const apnc_parameters *p, apnc_state *state) {
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         c->o1[leg] = p->o1_start;
         c->o2[leg] = p->o2_start;
-        c->theta_hip_before[leg] = (apnc_real)INFINITY;
+        c->theta_before[leg] = (apnc_real)INFINITY;
         c->F_before[leg] =
             (apnc_real)INFINITY; /* a robot that already stands does not touch down */
     }
@@ -892,13 +927,21 @@ static void learn(const apnc_parameters *restrict p, apnc_circuits *restrict c,
     }
 }
 
+/* theta: the commands that are copied [rad]. */
 static void expect(const apnc_parameters *restrict p, apnc_circuits *restrict c,
-                   const apnc_real *restrict theta_hip) {
+                   const apnc_real *restrict theta) {
     for (int leg = 0; leg < APNC_LEGS; leg++) {
-        const apnc_real G = apnc_stance_expected(theta_hip[leg], c->theta_hip_before[leg]);
+        const apnc_real G = apnc_stance_expected(theta[leg], c->theta_before[leg]);
         c->grf_expected[leg] = apnc_expect(p, c->grf_expected[leg], G);
-        c->theta_hip_before[leg] = theta_hip[leg];
+        c->theta_before[leg] = theta[leg];
     }
+}
+
+static void expect_learned(const apnc_parameters *restrict p, apnc_circuits *restrict c,
+                           const apnc_real *restrict F) {
+    for (int leg = 0; leg < APNC_LEGS; leg++)
+        c->grf_expected[leg] =
+            apnc_expect_learned(p, c->o1[leg], c->o2[leg], F[leg], c->learned[leg]);
 }
 
 static void restart_at_touch_down(const apnc_parameters *p, const apnc_circuits *c,
@@ -923,7 +966,10 @@ static void advance(const apnc_parameters *restrict p, apnc_state *restrict stat
     }
     if (p->method == APNC_METHOD_PHASE_RESET) restart_at_touch_down(p, c, F, a1, a2);
     if (p->method == APNC_METHOD_APNC || p->method == APNC_METHOD_APC) learn(p, c, F);
-    expect(p, c, out->theta_hip);
+    if (p->forward_model != APNC_FORWARD_MODEL_RADIAL_BASIS)
+        expect(p, c,
+               p->forward_model == APNC_FORWARD_MODEL_LOW_PASS_KNEE ? out->theta_knee
+                                                                    : out->theta_hip);
     memcpy(c->F_before, F, sizeof c->F_before);
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         c->o1[leg] = apnc_output(a1[leg]);
@@ -950,6 +996,8 @@ static void apnc_tick(const apnc_parameters *p, apnc_state *state, const apnc_in
         apnc_reset(p, state);
         observe_rest(p, state, out);
     } else {
+        if (p->forward_model == APNC_FORWARD_MODEL_RADIAL_BASIS)
+            expect_learned(p, &state->circuits, F);
         observe(p, state, out);
         communicate(p, state, angle, out);
         evaluate(c, out->kappa > 0, &t);
@@ -1032,6 +1080,8 @@ static const apnc_row apnc_rows[APNC_ROWS] = {
     {"tick", "tick", "", AT(outputs, tick), 1, APNC_INTEGER, APNC_OUTPUT, 0.0, 1.0, -1.0},
     {"K_f", LEG("K_f"), AT(outputs, K_f), APNC_LEGS, APNC_REAL, APNC_LOCAL, 0.0, 1.0, -1.0},
     {"K_s", LEG("K_s"), AT(outputs, K_s), APNC_LEGS, APNC_REAL, APNC_LOCAL, 0.0, 1.0, -1.0},
+    {"forward_model", "forward_model", "", AT(parameters, forward_model), 1, APNC_ENUMERATION, APNC_FIXED, 1.0, 1.0, 3.0},
+    {"rbf_rate", "rbf_rate", "", AT(parameters, rbf_rate), 1, APNC_REAL, APNC_TUNABLE, 0.02, 0.0, 1.0},
 };
 
 #endif

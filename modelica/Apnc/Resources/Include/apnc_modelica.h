@@ -58,6 +58,8 @@ static void *apnc_modelica_new(
     double B_s,
     double alpha,
     double rho,
+    int forward_model,
+    double rbf_rate,
     int phase_measure,
     double phase_filter,
     int N,
@@ -99,6 +101,8 @@ static void *apnc_modelica_new(
     p->B_s = B_s;
     p->alpha = alpha;
     p->rho = rho;
+    p->forward_model = forward_model;
+    p->rbf_rate = rbf_rate;
     p->phase_measure = phase_measure;
     p->phase_filter = phase_filter;
     p->N = N;
