@@ -111,10 +111,8 @@ def best_setting(rows: Sequence[Row]) -> float | None:
         times = [row[AUTHORS] if is_number(row.get(AUTHORS)) else np.inf for row in own]
         return -walks(own), -walks(own, AUTHORS), float(np.median(times)), gain
 
-    best = min(cells_in(rows, "gain"), key=merit, default=None)
-    if best is None or merit(best)[:2] == (0, 0):
-        return None
-    return best
+    best: float | None = min(cells_in(rows, "gain"), key=merit, default=None)
+    return best if best is not None and merit(best)[:2] != (0, 0) else None
 
 
 def walks(rows: Sequence[Row], criterion: str = STRICT) -> int:
