@@ -112,9 +112,7 @@ def best_setting(rows: Sequence[Row]) -> float | None:
         return -walks(own), -walks(own, AUTHORS), float(np.median(times)), gain
 
     best: float | None = min(cells_in(rows, "gain"), key=merit, default=None)
-    if best is None or merit(best)[:2] == (0, 0):
-        return None
-    return best
+    return best if best is not None and merit(best)[:2] != (0, 0) else None
 
 
 def walks(rows: Sequence[Row], criterion: str = STRICT) -> int:

@@ -480,7 +480,7 @@ def test_a_fall_and_a_divergence_are_told_in_the_row() -> None:
 # --- forward models ----------------------------------------------------------------------------
 
 
-def gains(stored: float, duration: float = 25.0) -> Record:
+def learned(stored: float, duration: float = 25.0) -> Record:
     """A walk whose K_f + K_s is 0.1 on half of the legs until kappa = 1, and 0.02 on all after."""
     base = synthetic_record(duration)
     on = base.time >= stored
@@ -491,15 +491,15 @@ def gains(stored: float, duration: float = 25.0) -> Record:
 
 
 def test_the_gain_is_that_of_equation_9_before_and_late() -> None:
-    found = forward_model.measure(gains(6.0))
+    found = forward_model.measure(learned(6.0))
     assert found == pytest.approx({"gain_forming": 0.05, "gain_late": 0.02})
 
 
 @pytest.mark.parametrize("stored", [0.0, 21.0, 99.0])
 def test_no_gain_without_a_before_and_a_late_part(stored: float) -> None:
-    assert forward_model.measure(gains(stored)) == {"gain_forming": None, "gain_late": None}
+    assert forward_model.measure(learned(stored)) == {"gain_forming": None, "gain_late": None}
 
 
 def test_no_gain_of_a_run_that_fell() -> None:
-    fell = replace(gains(6.0), end=End.fell)
+    fell = replace(learned(6.0), end=End.fell)
     assert forward_model.measure(fell) == {"gain_forming": None, "gain_late": None}

@@ -26,7 +26,7 @@ ROWS: list[tuple[str, Row, Row]] = [
     ),
     (
         "rate",
-        {"method": "tegotae", "rate": 50.0},
+        {"method": "tegotae", "rate": 60.0},
         {
             "convergence_time_s": None,
             "convergence_time_authors_s": 40.199999999999996,
