@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -175,18 +175,10 @@ def _formation(record: Record, touch: int | None) -> dict[str, Any]:
 
 def _sound(record: Record) -> Record:
     """The record, without samples if it diverged, fell at once or holds a value not finite."""
-    if record.end == "fell" and record.ended_at < FELL_AT_ONCE_S:
-        return _without_samples(record)
+    fell_at_once = record.end == "fell" and record.ended_at < FELL_AT_ONCE_S
     channels = [*record.plant.values(), record.controller["o1"], record.controller["o2"]]
-    if record.end != "diverged" and all(np.isfinite(values).all() for values in channels):
-        return record
-    return _without_samples(record)
-
-
-def _without_samples(record: Record) -> Record:
-    plant = {name: values[:0] for name, values in record.plant.items()}
-    controller = {name: values[:0] for name, values in record.controller.items()}
-    return replace(record, time=record.time[:0], plant=plant, controller=controller)
+    finite = all(np.isfinite(values).all() for values in channels)
+    return record if finite and not fell_at_once and record.end != "diverged" else record.until(0)
 
 
 def _mean(values: Any) -> float | None:

@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from time import perf_counter_ns
 from typing import Any, Final
@@ -116,8 +117,29 @@ def _core(legs: int) -> dict[str, float]:
     }
 
 
+class _Timed:
+    """An FMU whose steps are timed, each series from where the last one ended."""
+
+    def __init__(self, fmu: FMU2Slave, loops: NativeLoops) -> None:
+        self.fmu, self.loops, self.t = fmu, loops, 0.0
+
+    def from_c(self, steps: int = TICKS_PER_REPEAT // 4) -> float:
+        """Nanoseconds per step, called by compiled code."""
+        begin, self.t = self.t, self.t + steps * TS
+        return self.loops.steps(self.fmu.dll.fmi2DoStep, self.fmu.component, begin, TS, steps)
+
+    def through_fmpy(self, steps: int = 2000) -> float:
+        """Nanoseconds per step, called by fmpy."""
+        start, self.t = self.t, self.t + steps * TS
+        begin = perf_counter_ns()
+        for n in range(steps):
+            self.fmu.doStep(start + n * TS, TS)
+        return (perf_counter_ns() - begin) / steps
+
+
 @contextmanager
-def _slave(path: Path, start: Callable[[FMU2Slave, Any], None]) -> Iterator[FMU2Slave]:
+def _timed(path: Path, loops: NativeLoops, coupled: bool = True) -> Iterator[_Timed]:
+    """An FMU, if it is ours in the state and under the loads of ``native.c``."""
     description = fmpy.read_model_description(str(path))
     folder = fmpy.extract(str(path))
     fmu = FMU2Slave(
@@ -129,84 +151,41 @@ def _slave(path: Path, start: Callable[[FMU2Slave, Any], None]) -> Iterator[FMU2
     fmu.instantiate()
     fmu.setupExperiment(startTime=0.0)
     fmu.enterInitializationMode()
-    start(fmu, {v.name: v.valueReference for v in description.modelVariables})
+    if coupled:
+        reference = {v.name: v.valueReference for v in description.modelVariables}
+        fmu.setBoolean([reference["stored"]], [True])
+        fmu.setReal([reference[f"phi_stored[{k}]"] for k in (1, 2, 3)], [3.0, 0.1, 3.0])
+        loads = [24.525 / 4 * (0.8 + 0.01 * leg) for leg in range(4)]
+        fmu.setReal([reference[f"leg[{i}].grf"] for i in range(1, 5)], loads)
     fmu.exitInitializationMode()
     try:
-        yield fmu
+        yield _Timed(fmu, loops)
     finally:
         fmu.terminate()
         fmu.freeInstance()
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _start_coupled(fmu: FMU2Slave, reference: dict[str, int]) -> None:
-    """The state and loads of ``native.c``: a stored gait, constant loads."""
-    fmu.setBoolean([reference["stored"]], [True])
-    fmu.setReal([reference[f"phi_stored[{k}]"] for k in (1, 2, 3)], [3.0, 0.1, 3.0])
-    loads = [24.525 / 4 * (0.8 + 0.01 * leg) for leg in range(4)]
-    fmu.setReal([reference[f"leg[{i}].grf"] for i in range(1, 5)], loads)
-
-
-class _Clock:
-    """Communication points that go on from call to call."""
-
-    def __init__(self) -> None:
-        self.t = 0.0
-
-    def take(self, steps: int) -> float:
-        begin, self.t = self.t, self.t + steps * TS
-        return begin
-
-
 def _do_step() -> dict[str, float]:
-    steps, clock = TICKS_PER_REPEAT // 4, _Clock()
-    with NativeLoops(4) as loops, _slave(host_fmu(), _start_coupled) as fmu:
-        function = fmu.dll.fmi2DoStep
-
-        def from_c() -> float:
-            return loops.steps(function, fmu.component, clock.take(steps), TS, steps)
-
-        do_step, core, ratio = _paired(from_c, lambda: loops.core(steps))
-        through = statistics.median(_through_fmpy(fmu, clock, 2000) for _ in range(REPEATS))
+    with NativeLoops(4) as loops, _timed(host_fmu(), loops) as fmu:
+        do_step, core, ratio = _paired(fmu.from_c, lambda: loops.core(TICKS_PER_REPEAT // 4))
+        through = statistics.median(fmu.through_fmpy() for _ in range(REPEATS))
     return {"from_c_ns": do_step, "core_ns": core, "ratio": ratio, "through_fmpy_ns": through}
 
 
-def _through_fmpy(fmu: FMU2Slave, clock: _Clock, steps: int) -> float:
-    t = clock.take(steps)
-    begin = perf_counter_ns()
-    for n in range(steps):
-        fmu.doStep(t + n * TS, TS)
-    return (perf_counter_ns() - begin) / steps
-
-
 def _against_peer() -> dict[str, float]:
-    own_clock, peer_clock = _Clock(), _Clock()
-    own_steps = TICKS_PER_REPEAT // 4
-    with tempfile.TemporaryDirectory() as folder:
-        path = peer.export(Path(folder))
-        with (
-            NativeLoops(4) as loops,
-            _slave(host_fmu(), _start_coupled) as own,
-            _slave(path, lambda fmu, reference: None) as other,
+    result: dict[str, float] = {}
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        NativeLoops(4) as loops,
+        _timed(host_fmu(), loops) as own,
+        _timed(peer.export(Path(folder)), loops, coupled=False) as other,
+    ):
+        for way, of_peer, of_own in (
+            ("from_c", other.from_c, own.from_c),
+            ("through_fmpy", other.through_fmpy, own.through_fmpy),
         ):
-
-            def of(fmu: FMU2Slave, clock: _Clock, steps: int) -> float:
-                t = clock.take(steps)
-                return loops.steps(fmu.dll.fmi2DoStep, fmu.component, t, TS, steps)
-
-            peer_ns, own_ns, ratio = _paired(
-                lambda: of(other, peer_clock, STEPS_OF_PEER),
-                lambda: of(own, own_clock, own_steps),
-            )
-            peer_fmpy, own_fmpy, ratio_fmpy = _paired(
-                lambda: _through_fmpy(other, peer_clock, STEPS_OF_PEER),
-                lambda: _through_fmpy(own, own_clock, 2000),
-            )
-    return {
-        "from_c_ns": peer_ns,
-        "own_from_c_ns": own_ns,
-        "ratio_from_c": ratio,
-        "through_fmpy_ns": peer_fmpy,
-        "own_through_fmpy_ns": own_fmpy,
-        "ratio_through_fmpy": ratio_fmpy,
-    }
+            times = _paired(partial(of_peer, STEPS_OF_PEER), of_own)
+            names = (f"{way}_ns", f"own_{way}_ns", f"ratio_{way}")
+            result |= dict(zip(names, times, strict=True))
+    return result

@@ -14,17 +14,7 @@ import typer
 from typer import Option
 
 import apnc
-from apnc.cli.console import (
-    File,
-    Number,
-    Text,
-    Texts,
-    bar,
-    say,
-    show_table,
-    status,
-    writable,
-)
+from apnc.cli.console import File, Number, Text, Texts, bar, say, show_table, status, writable
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.loop.steps import parse_steps
 from apnc_core.enumerations import Method

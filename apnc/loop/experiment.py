@@ -182,11 +182,6 @@ class Experiment:
             )
         return values
 
-    def plain_parameters(self) -> dict[str, Any]:
-        """Every parameter as plain data for JSON, enumerations by name."""
-        values: dict[str, Any] = plain(self.parameters())
-        return values
-
     def changed(self) -> dict[str, Any]:
         """Fields that are not the default, by name."""
         default = _default()

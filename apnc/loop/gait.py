@@ -73,9 +73,10 @@ def gait_of_run(folder: Path | str) -> Gait:
     path = Path(folder) / "record.csv"
     try:
         with path.open(encoding="utf-8") as file:
-            last = _last_row(file)
+            newest = deque(csv.DictReader(file), maxlen=1)
     except OSError as error:
         raise GaitError(f"{path} cannot be read: {error.strerror}") from None
+    last = newest[0] if newest else {}
     relations = [name for name in last if name.startswith("phi_memory")]
     if not relations or "kappa" not in last:
         raise GaitError(f"{path} is not the record of a walk")
@@ -83,11 +84,6 @@ def gait_of_run(folder: Path | str) -> Gait:
         raise GaitError(f"{folder}: no gait was stored in this run (kappa is 0 at its end)")
     legs = tuple(name.removesuffix(".o1") for name in last if name.endswith(".o1"))
     return Gait(legs, tuple(float(last[name]) for name in relations))
-
-
-def _last_row(file: Any) -> dict[str, str]:
-    newest = deque(csv.DictReader(file), maxlen=1)
-    return dict(newest[0]) if newest else {}
 
 
 def _checksum(content: dict[str, Any]) -> str:

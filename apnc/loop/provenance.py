@@ -9,6 +9,7 @@ from typing import Any, Final
 import apnc_core
 from apnc.loop.code import code_hash
 from apnc.loop.experiment import Experiment
+from apnc.loop.plain import plain
 
 _LIBRARIES: Final = ("exudyn", "fmpy", "numba", "numpy")
 
@@ -19,7 +20,7 @@ def what_was_run(experiment: Experiment) -> dict[str, Any]:
         "command": experiment.command(),
         "key": experiment.key(),
         "experiment": experiment.to_dict(),
-        "parameters": experiment.plain_parameters(),
+        "parameters": plain(experiment.parameters()),
         "versions": {
             "apnc": apnc_core.__version__,
             "python": platform.python_version(),

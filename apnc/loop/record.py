@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Final
 
@@ -68,6 +68,12 @@ class Record:
     def n_legs(self) -> int:
         """Number of legs."""
         return len(self.legs)
+
+    def until(self, count: int) -> Record:
+        """The first ``count`` samples of the run."""
+        plant = {name: values[:count] for name, values in self.plant.items()}
+        controller = {name: values[:count] for name, values in self.controller.items()}
+        return replace(self, time=self.time[:count], plant=plant, controller=controller)
 
     @property
     def complete(self) -> bool:

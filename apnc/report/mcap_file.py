@@ -68,12 +68,8 @@ def write_mcap(record: Record, path: Path) -> None:
             for name, parts in _DEFINITIONS.items()
         }
         for tick, t in enumerate(record.time):
-            for topic, kind, message in _messages(record, tick):
-                stamp = round(float(t) * 1e9)
-                if "header" in message:
-                    message["header"]["stamp"] = dict(
-                        zip(("sec", "nanosec"), divmod(stamp, 10**9), strict=True)
-                    )
+            stamp = round(float(t) * 1e9)
+            for topic, kind, message in _messages(record, tick, stamp):
                 writer.write_message(topic, schemas[kind], message, log_time=stamp)
         writer.finish()
 
@@ -82,7 +78,9 @@ def _definition(own: str, others: dict[str, str]) -> str:
     return own + "".join(f"{_SEPARATOR}\nMSG: {name}\n{text}" for name, text in others.items())
 
 
-def _messages(record: Record, tick: int) -> Iterator[tuple[str, str, dict[str, Any]]]:
+def _messages(record: Record, tick: int, stamp: int) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    time = dict(zip(("sec", "nanosec"), divmod(stamp, 10**9), strict=True))
+    body, world = ({"stamp": time, "frame_id": frame} for frame in ("", "world"))
     plant, controller, legs = record.plant, record.controller, record.legs
     joints = [f"{leg}_{joint}" for leg in legs for joint in ("abduction", "hip", "knee")]
     position, velocity, effort = (
@@ -90,33 +88,29 @@ def _messages(record: Record, tick: int) -> Iterator[tuple[str, str, dict[str, A
         for name in ("joint_angle", "joint_speed", "joint_torque")
     )
     state = {"name": joints, "position": position, "velocity": velocity, "effort": effort}
-    yield "/joint_states", "sensor_msgs/msg/JointState", {"header": _header(""), **state}
+    yield "/joint_states", "sensor_msgs/msg/JointState", {"header": body, **state}
     commands = {
         "name": [f"{leg}_{joint}" for joint in ("hip", "knee") for leg in legs],
         "position": [*controller["theta_hip"][tick], *controller["theta_knee"][tick]],
         "velocity": [],
         "effort": [],
     }
-    yield "/joint_commands", "sensor_msgs/msg/JointState", {"header": _header(""), **commands}
+    yield "/joint_commands", "sensor_msgs/msg/JointState", {"header": body, **commands}
     turn = Rotation.from_euler("xyz", plant["rpy"][tick]).as_quat()
     pose = {
         "position": dict(zip("xyz", plant["position"][tick], strict=True)),
         "orientation": dict(zip("xyzw", turn, strict=True)),
     }
-    yield "/trunk", "geometry_msgs/msg/PoseStamped", {"header": _header("world"), "pose": pose}
+    yield "/trunk", "geometry_msgs/msg/PoseStamped", {"header": world, "pose": pose}
     for leg, force in zip(legs, plant["foot_force"][tick], strict=True):
         wrench = {
             "force": dict(zip("xyz", force, strict=True)),
             "torque": dict.fromkeys("xyz", 0.0),
         }
-        message = {"header": _header("world"), "wrench": wrench}
+        message = {"header": world, "wrench": wrench}
         yield f"/foot_force/{leg}", "geometry_msgs/msg/WrenchStamped", message
     for k, phi in enumerate(controller["phi"][tick], start=2):
         yield f"/apnc/phi1{k}", "std_msgs/msg/Float64", {"data": float(phi)}
     for name in ("d", "kappa"):
         value = {"data": float(controller[name][tick])}
         yield f"/apnc/{name}", "std_msgs/msg/Float64", value
-
-
-def _header(frame: str) -> dict[str, Any]:
-    return {"stamp": {}, "frame_id": frame}

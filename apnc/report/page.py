@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -53,10 +52,7 @@ def drawable(record: Record) -> Record:
     channels = [v.reshape(len(v), -1) for name, v in record.plant.items() if name != "joint_work"]
     largest = np.abs(np.concatenate(channels, axis=1)).max(axis=1)
     unsound = np.flatnonzero(~(largest < BEYOND))  # NaN, too
-    count = int(unsound[0]) if len(unsound) else len(record)
-    plant = {name: values[:count] for name, values in record.plant.items()}
-    controller = {name: values[:count] for name, values in record.controller.items()}
-    return replace(record, time=record.time[:count], plant=plant, controller=controller)
+    return record.until(int(unsound[0])) if len(unsound) else record
 
 
 def _data(run: Run) -> dict[str, Any]:

@@ -6,6 +6,7 @@ import ctypes
 import functools
 import math
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar, Final
 from xml.etree.ElementTree import Element, SubElement
@@ -110,21 +111,23 @@ class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
         self._time: float | None = None
         n_legs = len(self._robot.legs)
         self._commands = np.zeros(2 * n_legs)
-        self._set: dict[str, Any] = {}
         self._describe()
         variables = plant_variables(n_legs, self.NAMING)
-        inputs = [v for v in variables if v.causality is Causality.input]
-        self._inputs = [v.name for v in inputs]
-        outputs = [v for v in variables if v.causality is Causality.output]
+        inputs = [v.name for v in variables if v.causality is Causality.input]
+        outputs = [v.name for v in variables if v.causality is Causality.output]
+        self._inputs, commands = inputs, self._commands
+        self._set: dict[str, Any] = {}
         for v in variables:
             if v.causality is Causality.parameter:
-                self._register_parameter(v)
+                self._set[v.name] = v.start
+                self._register(v, partial(self._chosen, v.name), partial(self._choose, v))
             elif v.causality is Causality.input:
-                self._register_input(v, inputs.index(v))
+                at = inputs.index(v.name)
+                self._register(v, partial(commands.item, at), partial(commands.__setitem__, at))
             elif v.unit:
-                self._register_output(v, outputs.index(v))
+                self._register(v, partial(self._value, outputs.index(v.name)))
             else:
-                self._register(v, lambda: self._fell, None)
+                self._register(v, lambda: self._fell)
 
     def _describe(self) -> None:
         self.guid = self.GUID
@@ -133,51 +136,33 @@ class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
         self.description = f"Robot '{self._robot.name}' on the ground, in Exudyn"
         self.default_experiment = DefaultExperiment(0, float(STOP_TIME), TICK)
 
-    def _register_input(self, v: PlantVariable, at: int) -> None:
-        def put(value: float) -> None:
-            self._commands[at] = value
+    def _register(self, v: PlantVariable, getter: Any, setter: Any = None) -> None:
+        def refuse(value: Any) -> None:
+            raise ValueError(f"{v.name} is an output: it cannot be set")
 
-        self._register(v, lambda: self._commands[at], put)
-
-    def _register_parameter(self, v: PlantVariable) -> None:
-        self._set[v.name] = v.start
-        self._register(v, lambda: self._set[v.name], lambda value: self._choose(v, value))
-
-    def _register_output(self, v: PlantVariable, at: int) -> None:
-        self._register(v, lambda: self._values()[at], None)
-
-    def _register(self, v: PlantVariable, getter: Any, setter: Any) -> None:
-        kind: type = (
-            _Quantity if v.unit else {int: Integer, str: String}.get(type(v.start), Boolean)
-        )
-        variability = {
-            Causality.input: Fmi2Variability.continuous,
-            Causality.parameter: Fmi2Variability.tunable if v.tunable else Fmi2Variability.fixed,
-            Causality.output: Fmi2Variability.continuous if v.unit else Fmi2Variability.discrete,
+        continuous, discrete = Fmi2Variability.continuous, Fmi2Variability.discrete
+        variability, initial = {
+            Causality.input: (continuous, None),
+            Causality.parameter: (
+                Fmi2Variability.tunable if v.tunable else Fmi2Variability.fixed,
+                Fmi2Initial.exact,
+            ),
+            Causality.output: (continuous if v.unit else discrete, Fmi2Initial.calculated),
         }[v.causality]
-        initial = {
-            Causality.input: None,
-            Causality.parameter: Fmi2Initial.exact,
-            Causality.output: Fmi2Initial.calculated,
-        }[v.causality]
-        variable = kind(
+        variable = _KINDS[v.type](
             v.name,
             causality=Fmi2Causality[v.causality.value],
             variability=variability,
             initial=initial,
             description=v.description,
             getter=getter,
-            setter=setter or self._refuse(v),
+            setter=setter or refuse,
         )
         variable.row = v
         self.register_variable(variable, nested=False)
 
-    @staticmethod
-    def _refuse(v: PlantVariable) -> Any:
-        def refuse(value: Any) -> None:
-            raise ValueError(f"{v.name} is an output: it cannot be set")
-
-        return refuse
+    def _chosen(self, name: str) -> Any:
+        return self._set[name]
 
     def _choose(self, v: PlantVariable, value: Any) -> None:
         if self._started and not v.tunable:
@@ -202,11 +187,11 @@ class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
             )
         return self._plant
 
-    def _values(self) -> list[float]:
+    def _value(self, at: int) -> float:
         if self._shown is None:
             sample = self._made().sample()
             self._shown = np.concatenate([sample[c.name].ravel() for c in PLANT_CHANNELS]).tolist()
-        return self._shown
+        return self._shown[at]
 
     def setup_experiment(
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
@@ -295,6 +280,9 @@ class _Quantity(Real):  # type: ignore[misc]
             if value is not None:
                 typed.set(name, number(value))
         return element
+
+
+_KINDS: Final = {"Real": _Quantity, "Integer": Integer, "Boolean": Boolean, "String": String}
 
 
 def _add_dependencies(root: Element) -> None:

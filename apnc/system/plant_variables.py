@@ -51,6 +51,13 @@ class PlantVariable:
     high: float | None = None
     tunable: bool = False
 
+    @property
+    def type(self) -> str:
+        """Its type in FMI: that of its start value, Real with a unit, Boolean without either."""
+        if self.unit:
+            return "Real"
+        return {int: "Integer", str: "String"}.get(type(self.start), "Boolean")
+
 
 def plant_variables(n_legs: int, naming: str = "structured") -> list[PlantVariable]:
     """Inputs, parameters and outputs, in the order of their value references.
@@ -69,62 +76,30 @@ def plant_variables(n_legs: int, naming: str = "structured") -> list[PlantVariab
 
 def _inputs(n_legs: int, naming: str) -> list[PlantVariable]:
     return [
-        PlantVariable(
-            command.scalar_name(leg, naming),
-            Causality.input,
-            command.description,
-            command.unit,
-            0.0,
-        )
-        for command in map(row, COMMANDS)
+        PlantVariable(c.scalar_name(leg, naming), Causality.input, c.description, c.unit, 0.0)
+        for c in map(row, COMMANDS)
         for leg in range(n_legs)
     ]
 
 
+_SET: Final = Causality.parameter
+
 PARAMETERS: Final = (
     PlantVariable(
-        "seed",
-        Causality.parameter,
-        "chooses the asymmetry of the robot, the noise of its sensors and the obstacles",
-        start=0,
-        low=0,
-        high=LARGEST_SEED,
-    ),
+        "seed", _SET, "chooses the asymmetry of the robot, the noise of its sensors and the "
+        "obstacles", None, 0, 0, LARGEST_SEED),
     PlantVariable(
-        "roughness",
-        Causality.parameter,
-        "height of the obstacles on the ground over the robot's step height; 0 for none",
-        "1",
-        0.0,
-        0.0,
-        1.0,
-    ),
+        "roughness", _SET, "height of the obstacles on the ground over the robot's step height; "
+        "0 for none", "1", 0.0, 0.0, 1.0),
     PlantVariable(
-        "slope",
-        Causality.parameter,
-        "angle by which the ground rises along x",
-        "rad",
-        0.0,
-        -1.5,
-        1.5,
-    ),
+        "slope", _SET, "angle by which the ground rises along x", "rad", 0.0, -1.5, 1.5),
     PlantVariable(
-        "payload",
-        Causality.parameter,
-        "mass of a box on the trunk, on top of that of the condition",
-        "kg",
-        0.0,
-        0.0,
-        100.0,
-    ),
+        "payload", _SET, "mass of a box on the trunk, on top of that of the condition",
+        "kg", 0.0, 0.0, 100.0),
     PlantVariable(
-        "condition",
-        Causality.parameter,
-        f"what is wrong with the robot: {', '.join(CONDITIONS)}",
-        start="C1",
-        tunable=True,
-    ),
-)
+        "condition", _SET, f"what is wrong with the robot: {', '.join(CONDITIONS)}",
+        start="C1", tunable=True),
+)  # fmt: skip
 
 FELL: Final = PlantVariable(
     "fell",

@@ -115,7 +115,7 @@ def structure_of(experiment: Experiment, naming: str = "structured") -> Structur
         if s.variable.name in (LOAD, *_CONTROLLER_SHOWS)
     ]
     plant = [
-        Connector(v.name, v.causality, Type.real if v.unit else Type.boolean, v.unit)
+        Connector(v.name, v.causality, v.type, v.unit)
         for v in plant_variables(n_legs, naming)
         if v.causality is Causality.input or _is_shown(v, naming)
     ]
@@ -191,7 +191,6 @@ def _plant_starts(experiment: Experiment) -> list[Start]:
     for v in PARAMETERS:
         value = own.get(v.name, v.start)
         assert isinstance(value, float | int | str)
-        kind = "String" if isinstance(value, str) else Type.real if v.unit else Type.integer
-        if kind != "String" or value != v.start:
-            starts.append(Start(PLANT, v.name, kind, value, v.unit))
+        if v.type != "String" or value != v.start:
+            starts.append(Start(PLANT, v.name, v.type, value, v.unit))
     return starts

@@ -10,7 +10,7 @@ import numpy as np
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.report.figure import Figure
-from apnc.studies.claims import NO, Claim, Finding, Part, Rule, both_criteria, verdict
+from apnc.studies.claims import NO, Claim, Finding, Rule, both_criteria, verdict
 from apnc.studies.plots import CRITERIA, side_by_side
 from apnc.studies.rows import AUTHORS, SPEED, STRICT, Row, cells_in, matching, successes, values
 from apnc.studies.statistics import median, rate
@@ -57,11 +57,11 @@ def measure(record: Record) -> Row:
 def forms(model: str) -> Rule:
     """Every trial with a model forms the gait; nine of ten are 'partly'."""
 
-    def check(rows: Sequence[Row], column: str) -> Part:
+    def check(rows: Sequence[Row], column: str) -> Finding:
         hits = rate(successes(rows, column, model=model))
         own, printed = (median(values(rows, column, model=m)) for m in (model, PRINTED))
         text = f"{hits}, {own.text(1, 's')}, with the hip's {printed.text(1, 's')}"
-        return text, hits.value == 1.0, hits.value >= 0.9
+        return Finding(text, verdict(hits.value == 1.0, hits.value >= 0.9))
 
     return both_criteria(check)
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import csv
 import importlib
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 
 from apnc.studies.search.costs import COSTS, FAILED, costs
 from apnc.studies.search.knobs import KNOBS, Candidate
+from apnc.studies.workers import pool
 from build_fmu.build import host_fmu
 
 
@@ -44,7 +44,7 @@ def search(
     mean: Candidate = {}
     with (
         (output / "search.csv").open("w", newline="", encoding="utf-8") as file,
-        ProcessPoolExecutor(workers) as pool,
+        pool(workers, None) as executor,
     ):
         log = csv.writer(file)
         parts = [f"cost_{name}" for name in COSTS]
@@ -53,7 +53,7 @@ def search(
             points = strategy.ask()
             candidates = [_candidate(x) for x in points]
             seeds = [1000 * seed + generation] * len(candidates)
-            found = list(pool.map(_costs, candidates, seeds))
+            found = list((executor.map if executor else map)(_costs, candidates, seeds))
             # squares: one large cost weighs more than many small ones
             totals = [sum(cost + cost * cost for cost in each) for each in found]
             strategy.tell(points, totals)

@@ -141,3 +141,17 @@ def test_without_cma_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.setitem(__import__("sys").modules, "cma", None)
     with pytest.raises(RuntimeError, match=r"apnc\[search\]"):
         search(tmp_path)
+
+
+def test_workers_make_the_same_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("cma", reason="the extra search is not installed")
+    n = len(COSTS)
+
+    def made_up(candidate: dict[str, float], seed: int) -> tuple[float, ...]:
+        return (abs(sum(candidate.values())) + seed,) * n
+
+    monkeypatch.setattr("apnc.studies.search.__main__._costs", made_up)
+    for workers in (1, 2):
+        search(tmp_path / str(workers), generations=2, workers=workers)
+    one, two = ((tmp_path / name / "search.csv").read_text() for name in "12")
+    assert one == two and one.count("\n") == 1 + 2 * 15

@@ -170,10 +170,14 @@ def test_the_commands_write_what_they_say(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     write_gait(Gait(("RF", "RH", "LF", "LH"), (3.1, 3.2, 0.1)), Path("gait.json"))
-    for words in (["build-plant"], ["build-system", "--memory", "gait.json", "--mi", "0.2"]):
+    for words in (
+        ["build-plant"],
+        ["build-system", "--memory", "gait.json", "--mi", "0.2", "--rate", "50"],
+    ):
         with pytest.raises(SystemExit) as end:
             command_line.main(words)
         assert end.value.code == 0, capsys.readouterr().err
     assert fmpy.read_model_description("LilibotPlant.fmu").modelName == "LilibotPlant"
     controller = values(Path("Lilibot/resources/controller.ssv"))
     assert (controller["MI"], controller["stored"]) == ("0.2", "true")
+    assert "<BaseStepSize>0.02" in Path("Lilibot/OspSystemStructure.xml").read_text()
