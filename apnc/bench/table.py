@@ -49,6 +49,16 @@ def _rows(result: dict[str, Any]) -> list[tuple[str, float, str, float, str]]:
             f"<= {targets['do_step_over_core']}",
         )
     )
+    rows += [
+        (
+            f"step of the plant, {p['legs']} legs",
+            p["step_ns"],
+            f"4 legs: {_ns(p['four_legs_ns'])}",
+            p["ratio"],
+            "",
+        )
+        for p in result["plant"]
+    ]
     peer = result["pythonfmu"]
     if peer is None:
         return rows

@@ -27,7 +27,6 @@ from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
 from apnc.studies.study import WALK_MI, Study
 from apnc.studies.table import markdown
 
-
 MAX_FORCE_ERROR: Final = 0.05
 """Largest force error of a step that is fine enough."""
 
@@ -62,7 +61,7 @@ def _line(row: Row) -> dict[str, str]:
         ("COT", "cost_of_transport", 1.0, ".3f"),
     ):
         value = row.get(column)
-        shown[title] = f"{scale * value:{form}}" if is_number(value) else "-"
+        shown[title] = f"{scale * float(value):{form}}" if value is not None else "-"
     return shown | {TARGET: "yes" if fine_enough(row) else "no"}
 
 
