@@ -19,7 +19,7 @@ import fmpy
 from fmpy.fmi2 import FMU2Slave
 
 import apnc_core
-from apnc.bench import peer
+from apnc.bench import peer, plant
 from apnc.bench.native import NativeLoops
 from build_fmu.build import cached_fmu, host_fmu
 from build_fmu.options import PLATFORMS, BuildOptions
@@ -29,6 +29,7 @@ TS: Final = 1 / 60
 REPEATS: Final = 25
 TICKS_PER_REPEAT: Final = 80_000  # of one leg
 STEPS_OF_PEER: Final = 300
+TICKS_OF_PLANT: Final = 20
 
 Progress = Callable[[str], None]
 
@@ -47,6 +48,8 @@ def run_bench(progress: Progress = lambda what: None) -> dict[str, Any]:
         result["core"].append(_core(legs))
     progress("fmi2DoStep")
     result["do_step"] = _do_step()
+    progress("plant")
+    result["plant"] = [_plant(legs) for legs in plant.LEGS]
     progress("PythonFMU")
     result["pythonfmu"] = _against_peer() if peer.available() else None
     progress("size of the FMU with all platforms")
@@ -135,6 +138,14 @@ class _Timed:
         for n in range(steps):
             self.fmu.doStep(start + n * TS, TS)
         return (perf_counter_ns() - begin) / steps
+
+
+def _plant(legs: int) -> dict[str, float]:
+    own, first = plant.SteppedPlant(legs), plant.SteppedPlant(plant.LEGS[0])
+    step, four, ratio = _paired(
+        lambda: own.step_ns(TICKS_OF_PLANT), lambda: first.step_ns(TICKS_OF_PLANT)
+    )
+    return {"legs": legs, "step_ns": step, "four_legs_ns": four, "ratio": ratio}
 
 
 @contextmanager

@@ -37,6 +37,9 @@ def _rows(result: dict[str, Any]) -> Iterator[tuple[str, float, str, float, floa
         yield f"core, {c['legs']} legs", c["core_ns"], "with libm", c["libm_ns"], c["ratio"], most
     most = f"<= {targets['do_step_over_core']}"
     yield "fmi2DoStep from C", step["from_c_ns"], "core", step["core_ns"], step["ratio"], most
+    for p in result["plant"]:
+        title = f"step of the plant, {p['legs']} legs"
+        yield title, p["step_ns"], "4 legs", p["four_legs_ns"], p["ratio"], ""
     least = f">= {targets['pythonfmu_over_do_step']}"
     for way, bound in (("from C", least), ("through fmpy", "")) if peer else ():
         key = way.lower().replace(" ", "_")

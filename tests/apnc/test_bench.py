@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from apnc.bench import native, peer, run
+from apnc.bench import native, peer, plant, run
 from apnc.bench.native import NativeLoops
 from build_fmu import sources
 from build_fmu.compile import compile_library
@@ -89,6 +89,15 @@ def test_do_step_is_measured_on_the_coupled_controller(monkeypatch: pytest.Monke
     monkeypatch.setattr(run, "REPEATS", 2)
     result = run._do_step()
     assert result["ratio"] > 0 and result["through_fmpy_ns"] > result["from_c_ns"]
+
+
+def test_the_plant_is_measured_with_more_legs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run, "REPEATS", 2)
+    for legs in plant.LEGS:
+        robot = plant.robot_with(legs)
+        assert len(robot.legs) == legs
+        assert sum(leg.mount[1] < 0.0 for leg in robot.legs) == legs // 2
+    assert run._plant(6)["step_ns"] > 0.0
 
 
 @pytest.mark.skipif(not peer.available(), reason="pythonfmu is not installed (extra bench)")

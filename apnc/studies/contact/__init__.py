@@ -23,14 +23,54 @@ from apnc.studies.contact.measure import (
     trot,
 )
 from apnc.studies.plots import COLOURS
-from apnc.studies.rows import Row, cells_in, matching
+from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
 from apnc.studies.study import WALK_MI, Study
+from apnc.studies.table import markdown
+
+MAX_FORCE_ERROR: Final = 0.05
+"""Largest force error of a step that is fine enough."""
+
+MAX_CHATTER: Final = 0.01
+"""Largest chatter of a step that is fine enough."""
 
 
 def experiment(method: str, seed: int, depth: float, steps: int) -> Experiment:
     """A walk with a damping depth [m] of the feet and so many integration steps per tick."""
     own, step = robot(depth), TICK / steps
     return Experiment(robot=own, method=method, seed=seed, mi=WALK_MI, duration=30.0, step=step)
+
+
+def table(rows: Sequence[Row]) -> str:
+    """A line per law of damping and step, and whether the step is fine enough."""
+    return markdown(_line(row) for row in rows if is_number(row.get("force_error")))
+
+
+def _line(row: Row) -> dict[str, str]:
+    shown: dict[str, str] = {}
+    for title, column, scale, form in (
+        ("damping depth [mm]", "depth", 1e3, "g"),
+        ("step [ms]", "step_ms", 1.0, ".3f"),
+        ("real time", "real_time_factor", 1.0, ".0f"),
+        ("peak force [N]", "peak_N", 1.0, ".0f"),
+        ("force error [%]", "force_error", 100.0, ".1f"),
+        ("chatter [%]", "chatter", 100.0, ".2f"),
+        ("place [mm]", "distance_error_mm", 1.0, ".2f"),
+        ("trot after [s]", STRICT, 1.0, ".2f"),
+        ("speed [m/s]", "late_speed_m_per_s", 1.0, ".4f"),
+        ("duty", "duty_factor_mean", 1.0, ".3f"),
+        ("COT", "cost_of_transport", 1.0, ".3f"),
+    ):
+        value = row.get(column)
+        shown[title] = f"{scale * float(value):{form}}" if value is not None else "-"
+    return shown | {TARGET: "yes" if fine_enough(row) else "no"}
+
+
+TARGET: Final = f"error <= {100 * MAX_FORCE_ERROR:g} %, chatter <= {100 * MAX_CHATTER:g} %"
+
+
+def fine_enough(row: Row) -> bool:
+    """Whether force error and chatter of a step are within what is asked."""
+    return bool(row["force_error"] <= MAX_FORCE_ERROR and row["chatter"] <= MAX_CHATTER)
 
 
 def figures(rows: Sequence[Row]) -> list[Figure]:
@@ -74,4 +114,5 @@ STUDY: Final = Study(
     measure=measure,
     figures=figures,
     scenes=scenes,
+    table=table,
 )

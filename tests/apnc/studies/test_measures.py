@@ -19,6 +19,7 @@ from apnc.studies.engine import measured
 from apnc.studies.rows import Row
 from apnc.studies.states.measure import as_paper_says, judge, measure
 from apnc.studies.states.timeline import TIMELINE, Timeline
+from exudyn_models.physics.options import PlantOptions
 
 Array = NDArray[np.float64]
 PRONK = (0.0, 0.0, 0.0)
@@ -441,6 +442,22 @@ def test_contact_is_measured_with_the_step_of_the_walk(monkeypatch: pytest.Monke
     assert row["real_time_factor"] == pytest.approx(10.0)
     assert row["force_error"] == pytest.approx(0.2)
     assert set(row) >= {"peak_N", "tick_force_error", "chatter", "distance_error_mm"}
+
+
+def test_the_default_step_is_fine_enough_for_forces() -> None:
+    contact_measure = importlib.import_module("apnc.studies.contact.measure")
+    steps = round(contact_measure.TICK / PlantOptions().step)
+    own, finest = (contact_measure.trot(contact.GRADUAL, n) for n in (steps, 256))
+    assert contact.fine_enough(errors(own, finest))
+    assert not contact.fine_enough(errors(contact_measure.trot(contact.GRADUAL, 8), finest))
+
+
+def test_the_table_says_which_step_is_fine_enough() -> None:
+    row = {"depth": 2e-4, "step_ms": 1.042, "force_error": 0.05, "chatter": 0.01}
+    rows = [row, row | {"force_error": 0.051}, row | {"chatter": 0.011}, {"depth": 2e-4}]
+    lines = contact.table(rows).splitlines()[2:]
+    assert [line.split(" | ")[-1] for line in lines] == ["yes |", "no |", "no |"]
+    assert lines[0].startswith("| 0.2 | 1.042 | - | - | 5.0 | 1.00 |")
 
 
 def test_touch_down_is_the_first_rise_from_zero() -> None:
