@@ -104,12 +104,12 @@ def experiment(method: str, seed: int, change: str, mi: float) -> Experiment:
 def table(rows: Sequence[Row]) -> str:
     """A line per change, strict times and mean speed at every MI that all walked at.
 
-    "-" did not form. Then duty factor and speed over MI, of what walked at more of them.
+    "-" did not form. Then duty factor and speed over MI, of what walks at more than two of them.
     """
     changes, mis = _in_order(rows), cells_in(rows, "mi")
     common = [mi for mi in mis if all(matching(rows, change=c, mi=mi) for c in changes)]
     text = markdown(_line(c, matching(rows, change=c), common) for c in changes)
-    over = [c for c in changes if c in OVER_MI and len(common) < len(mis)]
+    over = [c for c in changes if c in OVER_MI and len(mis) > len(USUAL_MI)]
     return f"{text}\n{markdown(_duty(matching(rows, change=c), c) for c in over)}" if over else text
 
 
