@@ -36,20 +36,20 @@ Candidate = Mapping[str, float]
 """Values by the names of their knobs."""
 
 KNOBS: Final = (
-    Knob("b1", -0.5, 0.0, -0.2706),
-    Knob("b2", -0.4, 0.2, 0.06464),
-    Knob("trunk.com_x", 0.0, 0.055, 0.04571),
-    Knob("trunk.com_z", -0.012, 0.02, -0.006862),
-    Knob("servo.stiffness", 7.0, 80.0, 14.48, log=True),
-    Knob("servo.damping", 0.2, 2.5, 0.777, log=True),
+    Knob("b1", -0.5, 0.0, -0.26),
+    Knob("b2", -0.4, 0.2, 0.05),
+    Knob("trunk.com_x", 0.0, 0.06, 0.0485),
+    Knob("trunk.com_z", -0.012, 0.02, -0.0078),
+    Knob("servo.stiffness", 7.0, 80.0, 18, log=True),
+    Knob("servo.damping", 0.2, 2.5, 0.72, log=True),
     Knob("servo.reflected_inertia", 0.0115, 0.02, 0.012, log=True),
-    Knob("contact.stiffness", 3e3, 4e4, 5145, log=True),
+    Knob("contact.stiffness", 3e3, 4e4, 5000, log=True),
     Knob("contact.damping", 450.0, 800.0, 510.0, log=True),
-    Knob("sensor.delay", 0.002, 0.07, 0.007709),
-    Knob("sensor.time_constant", 0.005, 0.05, 0.02539, log=True),
-    Knob("B_f", 0.02, 0.5, 0.197, log=True),
-    Knob("B_s", 1e-4, 1e-2, 0.0006557, log=True),
-    Knob("turn_gain", 0.4, 1.0, 0.9201),
+    Knob("sensor.delay", 0.002, 0.07, 0.012),
+    Knob("sensor.time_constant", 0.005, 0.05, 0.022, log=True),
+    Knob("B_f", 0.02, 0.5, 0.27, log=True),
+    Knob("B_s", 1e-4, 1e-2, 0.0012, log=True),
+    Knob("turn_gain", 0.4, 1.0, 0.93),
 )
 
 PUBLISHED: Final[Candidate] = {"a1": 0.14, "a2": 0.14, "xi": 0.01}
