@@ -41,6 +41,7 @@ STUDIES: Final = {
         Entry("gains", "Strength of the feedback", "4.1", (METHODS, "mi", "gain")),
         Entry("symmetry", "Equal loads", "4.1.1", ("mi",)),
         Entry("gait", "How it walks", "", ("mi",)),
+        Entry("departures", "Departures taken back", "", ("removed", "task")),
         Entry("sensitivity", "Numbers of the robot", "", ("change", "mi")),
         Entry("forward_model", "Forward models", "", ("model", "mi")),
         Entry("engines", "Two engines", "", ("engine", "mi")),

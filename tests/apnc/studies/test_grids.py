@@ -60,6 +60,10 @@ def test_apnc_walks_every_cell_and_the_others_fewer_with_half_of_the_seeds(
     assert {t.experiment.duration for t in grid_of(name, 1)} == {duration}
 
 
+SET_THEMSELVES = ("gains", "steering", "forward_model", "departures")
+"""Studies whose trials have settings besides those of their contender."""
+
+
 @pytest.mark.parametrize("name", STUDIES)
 def test_a_trial_is_what_its_cell_says(name: str) -> None:
     for trial in grid_of(name, 2):
@@ -68,7 +72,12 @@ def test_a_trial_is_what_its_cell_says(name: str) -> None:
         assert trial.experiment.seed == trial.cell["seed"]
         assert trial.experiment.preset == "robot"
         assert trial.experiment.description.name == "lilibot"
-        if name not in ("gains", "steering", "forward_model"):  # which set something themselves
+        if name not in (
+            "gains",
+            "steering",
+            "forward_model",
+            "departures",
+        ):  # which set something themselves
             settings = contender(trial.cell["method"]).settings_in(name)
             assert dict(trial.experiment.settings) == dict(settings)
 
@@ -128,7 +137,7 @@ def test_forward_models_differ_in_nothing_else() -> None:
 
 
 def test_the_paper_is_all_of_its_experiments() -> None:
-    ours = ("gait", "sensitivity", "forward_model", "contact", "engines")
+    ours = ("gait", "departures", "sensitivity", "forward_model", "contact", "engines")
     assert names_of("all") == [name for name in STUDIES if name not in ours]
     assert {t.study for t in grid_of("all", 1)} == set(names_of("all"))
 
