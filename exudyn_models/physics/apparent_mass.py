@@ -1,4 +1,4 @@
-"""How heavy a foot feels to friction."""
+"""Apparent mass of the feet along the ground."""
 
 from __future__ import annotations
 

@@ -81,8 +81,6 @@ def _solver_settings(step: float) -> Any:
     integration.endTime = step
     integration.verboseMode = 0
     integration.explicit.useLieGroupIntegration = False
-    # Exudyn would evaluate the equations twice per step, for accelerations that are not used.
-    integration.explicit.computeEndOfStepAccelerations = False
     settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
     settings.solution.file.write = False
     settings.solution.sensors.active = False
