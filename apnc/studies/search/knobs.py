@@ -38,17 +38,17 @@ Candidate = Mapping[str, float]
 KNOBS: Final = (
     Knob("b1", -0.5, 0.0, -0.26),
     Knob("b2", -0.4, 0.2, 0.05),
-    Knob("trunk.com_x", 0.0, 0.06, 0.0485),
-    Knob("trunk.com_z", -0.012, 0.02, -0.0078),
-    Knob("servo.stiffness", 15.0, 24.0, 19.0, log=True),
-    Knob("servo.damping", 0.7, 1.1, 0.8, log=True),
-    Knob("servo.reflected_inertia", 0.0115, 0.02, 0.012, log=True),
-    Knob("contact.stiffness", 3e3, 4e4, 5000, log=True),
-    Knob("contact.damping", 450.0, 800.0, 510.0, log=True),
-    Knob("sensor.delay", 0.005, 0.07, 0.015),
-    Knob("B_f", 0.02, 0.5, 0.27, log=True),
-    Knob("B_s", 1e-4, 1e-2, 0.0012, log=True),
-    Knob("turn_gain", 0.4, 1.0, 0.93),
+    Knob("trunk.com_x", 0.0, 0.06, 0.0445),
+    Knob("trunk.com_z", -0.016, 0.02, -0.011),
+    Knob("servo.stiffness", 14.0, 24.0, 18.0, log=True),
+    Knob("servo.damping", 0.7, 1.1, 0.86, log=True),
+    Knob("servo.reflected_inertia", 0.0075, 0.02, 0.0082, log=True),
+    Knob("contact.stiffness", 3e3, 4e4, 4800, log=True),
+    Knob("contact.damping", 450.0, 800.0, 500, log=True),
+    Knob("sensor.delay", 0.005, 0.07, 0.011),
+    Knob("B_f", 0.02, 0.5, 0.195, log=True),
+    Knob("B_s", 1e-4, 1e-2, 0.00075, log=True),
+    Knob("turn_gain", 0.4, 1.0, 0.95),
 )
 
 PUBLISHED: Final[Candidate] = {"a1": 0.14, "a2": 0.14, "xi": 0.01}
