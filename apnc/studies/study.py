@@ -13,7 +13,7 @@ from apnc.loop.record import Record
 from apnc.loop.steps import steps_text
 from apnc.report.figure import Figure
 from apnc.studies.claims import Claim
-from apnc.studies.registry import METHODS, STUDIES, Entry
+from apnc.studies.registry import METHODS, ROBOT, STUDIES, Entry
 from apnc.studies.rows import Row
 
 Value = str | float | int
@@ -84,12 +84,15 @@ class Study:
         methods: Sequence[str] | None = None,
         chosen: Chosen | None = None,
         duration: float | None = None,
+        robot: str | None = None,
     ) -> list[Trial]:
         """Every value of every axis, every seed, every method; see ``run_study``."""
         if trials < 1:
             raise ValueError(f"trials = {trials} is not at least 1")
         if methods is not None and METHODS not in self.entry.options:
             raise ValueError(f"study '{self.name}' takes no methods; it has its own")
+        if robot is not None and ROBOT not in self.entry.options:
+            raise ValueError(f"study '{self.name}' takes no robot; it has its own")
         if not (used := tuple(dict.fromkeys(self.methods if methods is None else methods))):
             raise ValueError("no method is given")
         if unknown := set(chosen or {}) - set(self.axes):
@@ -98,7 +101,7 @@ class Study:
         values = (self._values(axis, (chosen or {}).get(axis)) for axis in self.axes)
         cells = [dict(zip(self.axes, at, strict=True)) for at in itertools.product(*values)]
         return [
-            self._trial({"method": method, **cell, "seed": seed}, duration)
+            self._trial({"method": method, **cell, "seed": seed}, duration, robot)
             for cell in cells
             for seed in range(trials)
             for method in used
@@ -119,10 +122,12 @@ class Study:
                 raise ValueError(f"{axis} '{value}' is not one of {', '.join(map(str, known))}")
         return list(dict.fromkeys(values))
 
-    def _trial(self, cell: dict[str, Value], duration: float | None) -> Trial:
+    def _trial(self, cell: dict[str, Value], duration: float | None, robot: str | None) -> Trial:
         experiment = self.experiment(**cell)
         if duration is not None:
             experiment = replace(experiment, duration=duration)
+        if robot is not None:
+            experiment, cell = replace(experiment, robot=robot), {**cell, "robot": robot}
         mi = experiment.mi if isinstance(experiment.mi, int | float) else steps_text(experiment.mi)
         first = {"method": cell["method"], "mi": mi, "seed": cell["seed"]}
         return Trial(self.name, {**first, "duration": experiment.duration, **cell}, experiment)

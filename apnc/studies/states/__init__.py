@@ -18,7 +18,7 @@ FORMED, BACK = ("state_formation_time_s", "formed"), ("state_recovery_time_s", "
 
 MEANING: Final = {
     "apnc": ("the gait forms and lasts to the break",
-             "keeps the trot at every moment and walks, front sensors stuck",
+             "keeps the gait at every moment and walks, front sensors stuck",
              "recovers the stored gait from rest without feedback, and walks"),
     "apc": ("the gait forms and lasts to the break",
             "front oscillators stop",

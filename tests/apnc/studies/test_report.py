@@ -47,7 +47,7 @@ def test_the_head_says_what_was_run(tmp_path: Path, grid: list[Trial]) -> None:
         "Fig. 4, S4, S5",
         "APNC, APC alone, Tegotae, phase resetting",
         "72 of 72",
-        "within 0.6 rad of the trot",
+        "within 0.6 rad of the gait",
         "first below 2.8 rad",
         "72, 3240 s simulated in 1.5 min",
         f"versions: apnc {apnc_core.__version__}, python ",
@@ -68,7 +68,7 @@ def test_the_report_shows_claims(tmp_path: Path, grid: list[Trial]) -> None:
     )
     assert line.endswith(" | **reproduced** |")
     assert "- commit: " in text
-    assert (tmp_path / "mi.md").read_text().startswith("| method | MI | trot kept, strict")
+    assert (tmp_path / "mi.md").read_text().startswith("| method | MI | gait kept, strict")
 
 
 def test_a_method_that_was_not_run_is_said(tmp_path: Path) -> None:
