@@ -31,7 +31,7 @@ class Cycle:
     """The cycle of an oscillator without load.
 
     Args:
-        outputs: o1 and o2 at equally spaced phases from the peak of o1 on, shape (GRID, 2).
+        outputs: o1 and o2 at equally spaced phases, shape (GRID, 2).
         ticks: its length [ticks].
     """
 
