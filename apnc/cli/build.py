@@ -3,21 +3,26 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
 from apnc.cli.console import File, Text, Texts, say, status, writable
 
+if TYPE_CHECKING:
+    from build_fmu.options import Setting
+
 
 def build(
     output: Annotated[Path, Option(help="File to write.")] = Path("Apnc.fmu"),
-    legs: Annotated[int, Option(help="Number of legs.")] = 4,
+    legs: Annotated[int | None, Option(help="Number of legs; the robot's, or 4.")] = None,
+    robot: Annotated[Text, Option(help="Name or file; the shipped one of so many legs.")] = None,
     naming: Annotated[str, Option(help="structured, flat: leg[1].grf, leg1_grf.")] = "structured",
     fmi: Annotated[int, Option(help="Version of the standard, 2 or 3.")] = 2,
     platform: Annotated[Texts, Option(help="As win64; host; all if omitted; repeatable.")] = None,
-    preset: Annotated[str, Option(help="Parameters at the start: lilibot, paper.")] = "lilibot",
+    preset: Annotated[str, Option(help="At the start: robot, lilibot, paper.")] = "robot",
     setting: Annotated[Texts, Option("--set", help="NAME=VALUE at the start; repeatable.")] = None,
     params: Annotated[File, Option("--params", "--parameters", help="SSV, TOML, JSON.")] = None,
     memory: Annotated[File, Option(help="Learned gait at the start.")] = None,
@@ -26,6 +31,7 @@ def build(
     release: Annotated[File, Option(help="Folder for all files of a release instead.")] = None,
 ) -> None:
     """Build the FMU."""
+    from apnc.loop.experiment import OWN_PRESET
     from apnc.loop.gait import read_gait
     from apnc.loop.parameters import read_parameters
     from apnc_core.settings import parse
@@ -42,15 +48,16 @@ def build(
             return
         short = {"all": PLATFORMS, "host": [host_platform()] if "host" in (platform or ()) else []}
         names = [name for word in platform or ["all"] for name in short.get(word, [word])]
-        settings = read_parameters(params) if params else {}
+        n_legs, settings = _of_robot(robot, legs, own=preset == OWN_PRESET)
+        settings |= read_parameters(params) if params else {}
         settings |= {"method": method} if method else {}
         settings |= dict(map(parse, setting or ()))
         options = BuildOptions(
-            legs=legs,
+            legs=n_legs,
             naming=naming,
             platforms=tuple(dict.fromkeys(names)),
             fmi=fmi,
-            preset=preset,
+            preset="lilibot" if preset == OWN_PRESET else preset,
             settings=settings,
             memory=read_gait(memory).phi if memory else (),
             enumerations=enumerations,
@@ -59,3 +66,25 @@ def build(
         path = cached_fmu(options, lambda name: shown.update(f"compiling for {name}"))
         write_atomically(output, path.read_bytes())
     say(f"{output}: {output.stat().st_size / 1000:.0f} kB, {', '.join(options.platforms)}")
+
+
+def _of_robot(name: str | None, legs: int | None, *, own: bool) -> tuple[int, dict[str, Setting]]:
+    """Number of legs, and weight and preset of the robot that is named or else shipped."""
+    from apnc_core.variables import row
+    from exudyn_models.robot import ROBOTS, load_robot
+
+    if name is None:
+        legs = 4 if legs is None else legs
+        shipped = (load_robot(path.stem) for path in sorted(ROBOTS.glob("*.toml")))
+        robot = next((each for each in shipped if len(each.legs) == legs), None)
+        if robot is None:
+            return legs, {}
+    else:
+        robot = load_robot(name)
+        if legs not in (None, len(robot.legs)):
+            raise ValueError(f"legs = {legs}: robot '{robot.name}' has {len(robot.legs)}")
+    settings: dict[str, Setting] = dict(robot.controller) if own else {}
+    usual = row("robot_weight").start
+    if usual is None or not math.isclose(robot.weight, usual):
+        settings["robot_weight"] = robot.weight
+    return len(robot.legs), settings

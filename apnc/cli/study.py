@@ -16,7 +16,9 @@ from typer import Option
 import apnc
 from apnc.cli.console import Number, Text, bar, say, writable
 from apnc.cli.interrupt import STOP, Interrupted
-from apnc.studies.registry import ALL, METHODS, STUDIES
+from apnc.studies.registry import ALL, METHODS, ROBOT, STUDIES
+
+_ABOUT: Final = {ROBOT: "Its name or file."}
 
 _ENDED: Final = {"error": "ended with an error"}
 _BY_NAME: Final = inspect.Parameter.KEYWORD_ONLY
@@ -45,7 +47,10 @@ def _command(name: str, axes: tuple[str, ...]) -> Callable[..., None]:
         option("output", Path, Path(f"apnc-study-{name}"), "Folder for the results."),
         option("resume", bool, False, "Finish an interrupted study."),
         option("series", bool, False, "Keep the record of every trial."),
-        *(option(axis, Text, None, "Some of all, separated by commas.") for axis in axes),
+        *(
+            option(axis, Text, None, _ABOUT.get(axis, "Some of all, separated by commas."))
+            for axis in axes
+        ),
     ]
     command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]  # typer reads it
     return command
@@ -54,7 +59,7 @@ def _command(name: str, axes: tuple[str, ...]) -> Callable[..., None]:
 def _run(
     name: str, axes: tuple[str, ...], *, output: Path, workers: int | None, **options: Any
 ) -> None:
-    texts = {axis: options.pop(axis) for axis in axes}
+    texts = {axis: options.pop(axis) for axis in axes if axis != ROBOT}
     chosen = {k: [v.strip() for v in text.split(",")] for k, text in texts.items() if text}
     with bar(f"study {name}") as show:
 
@@ -82,4 +87,4 @@ def _run(
 for _each in STUDIES.values():
     _about = f"{_each.title} ({_each.place or 'not in the paper'})"
     app.command(_each.name, help=_about, short_help=_about)(_command(_each.name, _each.options))
-app.command(ALL, help="All of the paper's studies in one report")(_command(ALL, (METHODS,)))
+app.command(ALL, help="All of the paper's studies in one report")(_command(ALL, (METHODS, ROBOT)))

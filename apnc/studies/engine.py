@@ -13,7 +13,7 @@ from apnc.loop.csv_file import write_csv
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.report.folder import write_together
-from apnc.studies.registry import ALL, METHODS, STUDIES, load, names_of
+from apnc.studies.registry import ALL, METHODS, ROBOT, STUDIES, load, names_of
 from apnc.studies.report import files_of
 from apnc.studies.rows import Row
 from apnc.studies.store import Store, place_of
@@ -43,6 +43,7 @@ def run_study(
     series: bool = False,
     duration: float | None = None,
     chosen: Chosen | None = None,
+    robot: str | None = None,
     progress: Progress = lambda done, total, simulated, total_s: None,
     stop: Callable[[], bool] = lambda: False,
 ) -> list[Row]:
@@ -62,6 +63,8 @@ def run_study(
         duration: simulated time of every trial [s]; the study's own if omitted.
         chosen: values along axes of the grid, by name, which get all seeds of every method; the
             study's own if omitted.
+        robot: name or file of the robot that walks; the study's own if omitted. With ``all``,
+            studies that take none keep their own.
         progress: called after every trial.
         stop: asked before every trial; True ends the study, what is finished stays.
 
@@ -73,7 +76,7 @@ def run_study(
             ``resume``.
         OSError: a file cannot be written.
     """
-    grid = {trial.place: trial for trial in grid_of(name, trials, methods, chosen, duration)}
+    grid = {trial.place: trial for trial in grid_of(name, trials, methods, chosen, duration, robot)}
     folder = None if output is None else Path(output)
     path = None if folder is None else folder / ROWS_FILE
     if folder is None and series:
@@ -110,12 +113,20 @@ def grid_of(
     methods: Sequence[str] | None = None,
     chosen: Chosen | None = None,
     duration: float | None = None,
+    robot: str | None = None,
 ) -> list[Trial]:
     """The trials of a study, or of all of the paper's; see ``run_study``."""
     grid: list[Trial] = []
     for each in names_of(name):
-        takes = name != ALL or METHODS in STUDIES[each].options
-        grid += load(each).grid(trials, methods if takes else None, chosen, duration)
+        options = (METHODS, ROBOT) if name != ALL else STUDIES[each].options
+        own_methods, own_robot = METHODS not in options, ROBOT not in options
+        grid += load(each).grid(
+            trials,
+            None if own_methods else methods,
+            chosen,
+            duration,
+            None if own_robot else robot,
+        )
     return grid
 
 

@@ -26,7 +26,7 @@ MIN_BOX: Final = 5
 """Fewer values than this are shown one by one, without quartiles."""
 
 CRITERIA: Final = {
-    STRICT: "strict criterion: within 0.6 rad of the trot, to the end",
+    STRICT: "strict criterion: within 0.6 rad of the gait, to the end",
     AUTHORS: "authors' criterion: first below 2.8 rad",
 }
 COLOURS: Final = (theme.BLUE, theme.ORANGE, theme.GREEN, theme.PURPLE, theme.VERMILLION, theme.SKY)

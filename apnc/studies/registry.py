@@ -15,11 +15,15 @@ METHODS: Final = "methods"
 """The option of studies that compare controllers."""
 
 
+ROBOT: Final = "robot"
+"""The option of studies that any robot can walk."""
+
+
 class Entry(NamedTuple):
     """A study before it is loaded.
 
     ``place`` is where the paper has it, empty for a study of the model itself; ``options`` is what
-    may be chosen besides the number of trials: methods, or axes of the grid.
+    may be chosen besides the number of trials: methods, the robot, or axes of the grid.
     """
 
     name: str
@@ -31,16 +35,16 @@ class Entry(NamedTuple):
 STUDIES: Final = {
     entry.name: entry
     for entry in (
-        Entry("mi", "Stepping frequencies", "Fig. 4, S4, S5", (METHODS, "mi")),
-        Entry("rate", "Update rates", "Fig. 5", (METHODS, "rate")),
-        Entry("terrain", "Rough terrain", "Fig. 6", (METHODS, "roughness")),
-        Entry("conditions", "Robot conditions", "Fig. 7", (METHODS, "condition")),
-        Entry("damage", "Damaged leg", "Fig. 8", (METHODS,)),
-        Entry("states", "Motor memory", "Fig. 9-12"),
-        Entry("steering", "Speed and direction", "Fig. 13, 14", ("course",)),
+        Entry("mi", "Stepping frequencies", "Fig. 4, S4, S5", (METHODS, ROBOT, "mi")),
+        Entry("rate", "Update rates", "Fig. 5", (METHODS, ROBOT, "rate")),
+        Entry("terrain", "Rough terrain", "Fig. 6", (METHODS, ROBOT, "roughness")),
+        Entry("conditions", "Robot conditions", "Fig. 7", (METHODS, ROBOT, "condition")),
+        Entry("damage", "Damaged leg", "Fig. 8", (METHODS, ROBOT)),
+        Entry("states", "Motor memory", "Fig. 9-12", (ROBOT,)),
+        Entry("steering", "Speed and direction", "Fig. 13, 14", (ROBOT, "course")),
         Entry("gains", "Strength of the feedback", "4.1", (METHODS, "mi", "gain")),
         Entry("symmetry", "Equal loads", "4.1.1", ("mi",)),
-        Entry("gait", "How it walks", "", ("mi",)),
+        Entry("gait", "How it walks", "", (ROBOT, "mi")),
         Entry("departures", "Departures taken back", "", ("removed", "task")),
         Entry("sensitivity", "Numbers of the robot", "", ("change", "mi")),
         Entry("forward_model", "Forward models", "", ("model", "mi")),

@@ -15,7 +15,7 @@ from apnc.loop.steps import steps_text
 from apnc.report.figure import Figure
 from apnc.studies.claims import Claim
 from apnc.studies.contenders import ALL, contender
-from apnc.studies.registry import METHODS, STUDIES, Entry
+from apnc.studies.registry import METHODS, ROBOT, STUDIES, Entry
 from apnc.studies.rows import Row
 
 Value = str | float | int
@@ -101,12 +101,15 @@ class Study:
         methods: Sequence[str] | None = None,
         chosen: Chosen | None = None,
         duration: float | None = None,
+        robot: str | None = None,
     ) -> list[Trial]:
         """Every value of every axis, its seeds, every method; see ``run_study``."""
         if trials < 1:
             raise ValueError(f"trials = {trials} is not at least 1")
         if methods is not None and METHODS not in self.entry.options:
             raise ValueError(f"study '{self.name}' takes no methods; it has its own")
+        if robot is not None and ROBOT not in self.entry.options:
+            raise ValueError(f"study '{self.name}' takes no robot; it has its own")
         if not (used := tuple(dict.fromkeys(self.methods if methods is None else methods))):
             raise ValueError("no method is given")
         if unknown := set(chosen or {}) - set(self.axes):
@@ -115,7 +118,7 @@ class Study:
         values = (self._values(axis, (chosen or {}).get(axis)) for axis in self.axes)
         cells = [dict(zip(self.axes, at, strict=True)) for at in itertools.product(*values)]
         return [
-            self._trial({"method": method, **cell, "seed": seed}, duration)
+            self._trial({"method": method, **cell, "seed": seed}, duration, robot)
             for cell in cells
             for seed in range(trials)
             for method in used
@@ -137,12 +140,14 @@ class Study:
                 raise ValueError(f"{axis} '{value}' is not one of {', '.join(map(str, known))}")
         return list(dict.fromkeys(values))
 
-    def _trial(self, cell: dict[str, Value], duration: float | None) -> Trial:
+    def _trial(self, cell: dict[str, Value], duration: float | None, robot: str | None) -> Trial:
         used = contender(str(cell["method"]))
         experiment = self.experiment(**cell | {"method": used.method})
         settings = {**used.settings_in(self.name), **experiment.settings}
         length = experiment.duration if duration is None else duration
         experiment = replace(experiment, settings=settings, duration=length)
+        if robot is not None:
+            experiment, cell = replace(experiment, robot=robot), {**cell, "robot": robot}
         mi = experiment.mi if isinstance(experiment.mi, int | float) else steps_text(experiment.mi)
         first = {"method": cell["method"], "mi": mi, "seed": cell["seed"]}
         return Trial(self.name, {**first, "duration": experiment.duration, **cell}, experiment)

@@ -131,7 +131,7 @@ class LeggedPlant:
             robot.sensor, self.legs, robot.weight, np.random.default_rng(noise_seed)
         )
         self._reading = np.zeros(self.n_legs)
-        self._build(_side_offset(robot, np.random.default_rng(body_seed)))
+        self._build(side_offset(robot, np.random.default_rng(body_seed)))
         self.set_conditions(self._conditions)
 
     def _build(self, side_offset: float) -> None:
@@ -288,6 +288,7 @@ class LeggedPlant:
         return self._forces.fallen(self._q)
 
 
-def _side_offset(robot: RobotDescription, random: np.random.Generator) -> float:
+def side_offset(robot: RobotDescription, random: np.random.Generator) -> float:
+    """Sideways error of the centre of mass [m]: side and amount by chance."""
     side = random.choice([-1.0, 1.0])
     return float(side * robot.trunk.com_side_offset * random.uniform(0.75, 1.25))

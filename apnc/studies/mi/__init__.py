@@ -102,7 +102,7 @@ def _line(method: str, mi: float, rows: list[Row]) -> dict[str, str]:
     return {
         "method": contender(method).name,
         "MI": f"{mi:.2f}",
-        "trot kept, strict (95 % interval)": str(hits),
+        "gait kept, strict (95 % interval)": str(hits),
         "strict time [s], median (quartiles; longest)": spread,
         "authors' criterion": f"{len(loose)}/{len(rows)}",
         "authors' time [s], median": f"{np.median(loose):.1f}" if loose else "-",

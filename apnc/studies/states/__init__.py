@@ -21,7 +21,7 @@ GAMMA: Final = ("state_gamma_before", "state_gamma_after")
 
 MEANING: Final = {
     "apnc": ("the gait forms and lasts to the break",
-             "keeps the trot at every moment and walks, front sensors stuck",
+             "keeps the gait at every moment and walks, front sensors stuck",
              "recovers the stored gait from rest without feedback, and walks"),
     "apc": ("the gait forms and lasts to the break",
             "front oscillators stop",

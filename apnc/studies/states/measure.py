@@ -57,12 +57,12 @@ def as_paper_says(found: Row, method: str) -> Row:
 
 
 def judge(record: Record, when: Timeline = TIMELINE) -> Row:
-    """What became of the gait in a complete run of four legs along a timeline.
+    """What became of the gait in a complete run along a timeline.
 
     Returns:
         ``formed``: S1: strict criterion, from the set-down to the break;
         ``formation_time_s``: S1: from the touch moment [s];
-        ``kept``: S2: every phase within 0.6 rad of the trot from the break to the stop;
+        ``kept``: S2: every phase within 0.6 rad of the gait from the break to the stop;
         ``front_stopped``: S2: both front oscillators rest;
         ``recovered``: S3: strict criterion, from the restart to the end;
         ``recovery_time_s``: S3: from the restart [s];
@@ -73,7 +73,10 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Row:
         ``gamma_before``, ``gamma_after``: mean gain of all legs in the two seconds before that and
         in the last two of S1 [1], None unless they switched on between these.
     """
-    c, time, trot = record.controller, record.time, metrics.GAITS[4]["trot"]
+    c, time, n_legs = record.controller, record.time, len(record.legs)
+    gait = metrics.default_target(n_legs)
+    if gait is None:
+        raise ValueError(f"no gait is known for {n_legs} legs")
 
     def part(begin: float, end: float) -> slice:
         first, last = np.searchsorted(time, [begin - 1e-9, end - 1e-9])
@@ -81,7 +84,7 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Row:
 
     def converged(where: slice, touch: int | None) -> float | None:
         o1, o2 = c["o1"][where], c["o2"][where]
-        return metrics.convergence_time(time[where], o1, o2, touch, trot)
+        return metrics.convergence_time(time[where], o1, o2, touch, gait)
 
     def stays(where: slice, gait: tuple[float, ...], last: int = 0) -> bool:
         error = metrics.phase_error(c["o1"][where], c["o2"][where], gait)[-last:]
@@ -101,11 +104,11 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Row:
     return {
         "formed": formation is not None,
         "formation_time_s": formation,
-        "kept": stays(s2, trot),
+        "kept": stays(s2, gait),
         "front_stopped": bool((moved < STOPPED).all()),
         "recovered": recovery is not None,
         "recovery_time_s": recovery,
-        "in_phase": stays(s3, (0.0, 0.0, 0.0), last=round(record.experiment.rate)),
+        "in_phase": stays(s3, (0.0,) * (n_legs - 1), last=round(record.experiment.rate)),
         **{name: float(speed[part(end - LAST, end)].mean()) for name, end in ends.items()},
         "stored_at_s": float(stored[0]) if len(stored) else None,
         **_gamma(record, float(stored[0]) if len(stored) else math.inf, when),

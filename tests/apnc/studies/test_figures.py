@@ -251,7 +251,7 @@ def test_the_table_of_mi_counts_failures_and_errors() -> None:
 def test_the_table_of_mi_has_a_line_per_method_and_mi() -> None:
     lines = mi.table(made_up({"mi": (0.2, 0.08)}, times, OLD)).splitlines()
     assert lines[:2] == [
-        "| method | MI | trot kept, strict (95 % interval) | "
+        "| method | MI | gait kept, strict (95 % interval) | "
         "strict time [s], median (quartiles; longest) | authors' criterion | "
         "authors' time [s], median | speed [m/s], median (range) | fell |",
         "| --- | --- | --- | --- | --- | --- | --- | --- |",

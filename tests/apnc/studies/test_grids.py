@@ -336,4 +336,4 @@ def test_bad_grids_are_refused(arguments: tuple[Any, ...], words: str) -> None:
 
 def test_options_of_the_registry_are_those_of_the_grid() -> None:
     for name, entry in STUDIES.items():
-        assert set(entry.options) - {"methods"} == set(load(name).axes)
+        assert set(entry.options) - {"methods", "robot"} == set(load(name).axes)

@@ -46,7 +46,7 @@ def test_the_head_says_what_was_run(tmp_path: Path, grid: list[Trial]) -> None:
         "APNC; APC alone; Tegotae gamma_tegotae=0.015; Tegotae (best) gamma_tegotae=",
         "; phase resetting (best) grf_reset=",
         "108 of 108",
-        "within 0.6 rad of the trot",
+        "within 0.6 rad of the gait",
         "first below 2.8 rad",
         "108, 4860 s simulated in 1.5 min",
         f"versions: apnc {apnc_core.__version__}, python ",
@@ -67,7 +67,7 @@ def test_the_report_shows_claims(tmp_path: Path, grid: list[Trial]) -> None:
     )
     assert line.endswith(" | **reproduced** |")
     assert "- commit: " in text
-    assert (tmp_path / "mi.md").read_text().startswith("| method | MI | trot kept, strict")
+    assert (tmp_path / "mi.md").read_text().startswith("| method | MI | gait kept, strict")
 
 
 def test_a_method_that_was_not_run_is_said(tmp_path: Path) -> None:

@@ -1,0 +1,131 @@
+"""Modes of compliant legs in closed form, the reduced plant, and the phase return map."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from apnc import metrics
+from apnc.loop.experiment import Experiment
+from apnc.loop.simulate import simulate
+from apnc.studies.modes.returns import free_cycle, return_map
+from apnc.studies.modes.stance import Stance, patterns, stance_of
+from apnc.studies.modes.trunk import SpringTrunk
+from apnc.studies.robots import changed, constant
+from apnc_core import oscillator
+from apnc_core.interface import Parameters
+from exudyn_models.robot import load_robot
+
+K = 3000.0
+WEIGHT = 36.0
+
+
+def stance(widths: tuple[float, ...], k: tuple[float, ...] | None = None) -> Stance:
+    """Pairs of legs 0.1 m apart, each pair as far from the middle as its width [m]."""
+    along = 0.1 * (np.arange(len(widths))[::-1] - (len(widths) - 1) / 2)
+    x, y = np.tile(along, 2), np.concatenate([-np.array(widths), widths])
+    stiffness = np.tile(k if k else (K,) * len(widths), 2)
+    return Stance(x, y, stiffness, lag=0.05, weight=WEIGHT)
+
+
+@pytest.mark.parametrize("n_legs", [4, 6, 8])
+def test_patterns_are_orthonormal(n_legs: int) -> None:
+    basis = np.array(list(patterns(n_legs).values()))
+    np.testing.assert_allclose(basis @ basis.T, np.eye(n_legs), atol=1e-12)
+
+
+def test_the_trunk_follows_heave_pitch_and_roll_and_nothing_else() -> None:
+    found = stance((0.07, 0.07, 0.07, 0.07)).loads()
+    np.testing.assert_allclose(np.linalg.eigvalsh(found), [0, 0, 0, K, K, K, K, K], atol=1e-9)
+    for name in ("heave", "pitch", "roll"):
+        np.testing.assert_allclose(found @ patterns(8)[name], 0.0, atol=1e-9)
+
+
+def test_of_four_legs_the_trunk_cannot_follow_the_warp_alone() -> None:
+    warp = patterns(4)["warp"]
+    np.testing.assert_allclose(warp, [0.5, -0.5, -0.5, 0.5])
+    np.testing.assert_allclose(stance((0.07, 0.07)).loads(), K * np.outer(warp, warp), atol=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 2.0, 3.0])
+def test_a_tripod_is_a_pure_load_pattern_if_the_middle_stands_twice_as_wide(ratio: float) -> None:
+    tripod = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+    loaded = stance((0.05, 0.05 * ratio, 0.05)).loads() @ tripod
+    # the part of the pattern that is roll, (2 - r)^2 / (2 + r^2) of 6, the trunk follows
+    followed = (2.0 - ratio) ** 2 / (2.0 + ratio**2) / 3.0
+    np.testing.assert_allclose(tripod @ loaded / 6.0, K * (1.0 - followed), rtol=1e-12)
+    if ratio == 2.0:
+        np.testing.assert_allclose(loaded, K * tripod, rtol=1e-12)
+
+
+def test_bend_of_legs_of_unequal_stiffness() -> None:
+    bend = np.array([1.0, -2.0, 1.0, 1.0, -2.0, 1.0])
+    found = stance((0.06, 0.06, 0.06), (K, 3 * K, K)).loads() @ bend
+    # in series: 1, -2, 1 loads three springs per side, f = 6 / (1/k + 4/(3k) + 1/k) (1, -2, 1)
+    np.testing.assert_allclose(found, 6.0 / (2.0 / K + 4.0 / (3.0 * K)) * bend, rtol=1e-12)
+
+
+def test_a_tripod_carries_a_third_each_if_the_middle_stands_twice_as_wide() -> None:
+    np.testing.assert_allclose(
+        stance((0.05, 0.10, 0.05)).carried([0, 2, 4]), [12, 0, 12, 0, 12, 0], atol=1e-9
+    )
+    np.testing.assert_allclose(
+        stance((0.05, 0.05, 0.05)).carried([0, 2, 4]), [9, 0, 9, 0, 18, 0], atol=1e-9
+    )
+
+
+def test_legs_that_cannot_carry_are_refused() -> None:
+    with pytest.raises(ValueError, match="2 legs do not carry a trunk"):
+        stance((0.05, 0.05)).carried([0, 3])
+    with pytest.raises(ValueError, match="not over these feet"):
+        stance((0.05, 0.05, 0.05)).carried([0, 1, 3])
+
+
+def test_the_reduced_plant_stands_still_on_its_feet() -> None:
+    robot = load_robot("lilibot")
+    plant, stood = SpringTrunk(robot), stance_of(robot)
+    still = np.zeros(4)
+    for _ in range(60):
+        plant.advance(still, still, 1 / 60)
+    assert plant.load.sum() == pytest.approx(robot.weight, rel=1e-9)
+    np.testing.assert_allclose(plant.load[:2] + plant.load[2:], 2 * stood.carried(range(4))[:2],
+                               rtol=1e-6)  # fmt: skip
+
+
+def test_the_reduced_plant_lifts_a_foot_whose_leg_is_drawn_in() -> None:
+    plant, hip = SpringTrunk(load_robot("hexapod")), np.zeros(6)
+    for _ in range(120):
+        plant.advance(hip, np.array([0.3, 0, 0, 0, 0, 0]), 1 / 60)
+    assert plant.load[0] == 0.0
+    assert plant.load.sum() == pytest.approx(plant.mass * 9.81, rel=1e-6)
+
+
+def test_the_free_cycle_repeats_itself() -> None:
+    cycle = free_cycle(Parameters(), 0.15)
+    assert 60.0 / cycle.ticks == pytest.approx(2.0, abs=0.05)  # docs/formation.md: 2.00 Hz
+    phase = np.linspace(0.0, 2 * np.pi, 7)
+    a1, a2 = oscillator.activation(*cycle.at(phase), 0.15, Parameters())
+    later = cycle.at(phase + 2 * np.pi / cycle.ticks)
+    np.testing.assert_allclose(np.tanh([a1, a2]), later, atol=0.01)
+
+
+def test_the_reduced_plant_forms_the_trot() -> None:
+    robot = load_robot("lilibot")
+    run = Experiment(robot=robot, mi=0.15, duration=12.0, method="apc")
+    c = simulate(run, plant=SpringTrunk(robot)).controller
+    error = metrics.phase_error(c["o1"], c["o2"], metrics.GAITS[4]["trot"])
+    assert error[0] > 3.0
+    assert error[-120:].max() < metrics.STRICT_TOLERANCE
+
+
+def test_the_trot_is_stable_in_the_reduced_plant() -> None:
+    lilibot = load_robot("lilibot")
+    robot = replace(lilibot, sensor=replace(lilibot.sensor, noise=0.0))
+    robot = changed(robot, "trunk.com_side_offset", constant(0.0))
+    p = Parameters(robot_weight=robot.weight)
+    found = return_map(lambda: SpringTrunk(robot), p, 0.15, metrics.GAITS[4]["trot"])
+    assert found.names == ("roll", "pitch", "warp")
+    assert (found.multipliers < 0.9).all()
+    assert np.abs(found.drift).max() < 0.3
