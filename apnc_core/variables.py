@@ -115,27 +115,27 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "a1", "a_1", "slope of the motor neuron of the hip",
-        start=0.141, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
+        start=0.14, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
         source=_SEARCH,
     ),
     _parameter(
         "a2", "a_2", "slope of the motor neuron of the knee",
-        start=0.094, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
+        start=0.14, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
         source=_SEARCH,
     ),
     _parameter(
         "b1", "b_1", "offset of the motor neuron of the hip",
-        start=-0.350, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
+        start=-0.26, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
         equation="4", source=_SEARCH,
     ),
     _parameter(
         "b2", "b_2", "offset of the motor neuron of the knee",
-        start=0.052, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
+        start=0.05, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
         equation="4", source=_SEARCH,
     ),
     _parameter(
         "turn_gain", "", "relative change of the amplitudes at full steering",
-        start=0.5, unit="1", min=0.0, max=1.0, nominal=1.0, equation="4",
+        start=0.95, unit="1", min=0.0, max=1.0, nominal=1.0, equation="4",
         source="chosen: feet of the inner side still lift at full steering",
     ),
     _parameter(
@@ -144,7 +144,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "B_f", "B_f", "learning rate of the fast learner",
-        start=0.182, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
+        start=0.21, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
         source=_SEARCH,
     ),
     _parameter(
@@ -153,7 +153,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "B_s", "B_s", "learning rate of the slow learner",
-        start=0.00045, paper=0.0002, unit="1", min=0.0, max=1.0, nominal=0.001, equation="8",
+        start=0.00075, paper=0.0002, unit="1", min=0.0, max=1.0, nominal=0.001, equation="8",
         source=_SEARCH,
     ),
     _parameter(
@@ -203,13 +203,13 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "xi", "xi", "gain of the neural communication",
-        start=0.025, paper=0.01, unit="1", min=0.0, max=1.0, nominal=0.01, equation="17",
+        start=0.01, paper=0.01, unit="1", min=0.0, max=1.0, nominal=0.01, equation="17",
         source=_SEARCH,
     ),
     _parameter(
         "feedback_kept", "", "share of the sensory feedback that stays while the couplings are on; "
         "1 as in the equations",
-        start=0.2, paper=1.0, unit="1", min=0.0, max=1.0, nominal=1.0, equation="5",
+        start=0.1, paper=1.0, unit="1", min=0.0, max=1.0, nominal=1.0, equation="5",
         source="sections 3.2.1 and 4.3 let gamma become small once the couplings are on",
     ),
     _parameter(

@@ -53,25 +53,25 @@ package Parameters "Parameters by block; generated from the table of variables, 
   end Oscillator;
 
   record MotorNeurons "Parameters: MotorNeurons"
-    parameter Types.Angle a1(min=0.0, max=1.6)=0.141
+    parameter Types.Angle a1(min=0.0, max=1.6)=0.14
       "slope of the motor neuron of the hip (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Types.Angle a2(min=0.0, max=1.6)=0.094
+    parameter Types.Angle a2(min=0.0, max=1.6)=0.14
       "slope of the motor neuron of the knee (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Types.Angle b1(displayUnit="deg", min=-1.6, max=1.6)=-0.35
+    parameter Types.Angle b1(displayUnit="deg", min=-1.6, max=1.6)=-0.26
       "offset of the motor neuron of the hip (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Types.Angle b2(displayUnit="deg", min=-1.6, max=1.6)=0.052
+    parameter Types.Angle b2(displayUnit="deg", min=-1.6, max=1.6)=0.05
       "offset of the motor neuron of the knee (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Real turn_gain(unit="1", min=0.0, max=1.0)=0.5
+    parameter Real turn_gain(unit="1", min=0.0, max=1.0)=0.95
       "relative change of the amplitudes at full steering (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
   end MotorNeurons;
 
   record SensoryFeedback "Parameters: SensoryFeedback"
-    parameter Real feedback_kept(unit="1", min=0.0, max=1.0)=0.2
+    parameter Real feedback_kept(unit="1", min=0.0, max=1.0)=0.1
       "share of the sensory feedback that stays while the couplings are on; 1 as in the equations (Eq. 5)"
       annotation (Dialog(group="SensoryFeedback"));
     parameter Real gamma_tegotae(unit="1", min=0.0, max=10.0)=0.03
@@ -83,13 +83,13 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Real A_f(unit="1", min=0.0, max=1.0)=0.57
       "retention of the fast learner (Eq. 7)"
       annotation (Dialog(group="DualRateLearner"));
-    parameter Real B_f(unit="1", min=0.0, max=1.0)=0.182
+    parameter Real B_f(unit="1", min=0.0, max=1.0)=0.21
       "learning rate of the fast learner (Eq. 7)"
       annotation (Dialog(group="DualRateLearner"));
     parameter Real A_s(unit="1", min=0.0, max=1.0)=0.99
       "retention of the slow learner (Eq. 8)"
       annotation (Dialog(group="DualRateLearner"));
-    parameter Real B_s(unit="1", min=0.0, max=1.0)=0.00045
+    parameter Real B_s(unit="1", min=0.0, max=1.0)=0.00075
       "learning rate of the slow learner (Eq. 8)"
       annotation (Dialog(group="DualRateLearner"));
   end DualRateLearner;
@@ -144,7 +144,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
 
   record NeuralCoupling "Parameters: NeuralCoupling"
     extends Legs;
-    parameter Real xi(unit="1", min=0.0, max=1.0)=0.025
+    parameter Real xi(unit="1", min=0.0, max=1.0)=0.01
       "gain of the neural communication (Eq. 17)"
       annotation (Dialog(group="NeuralCoupling"));
     parameter Types.CouplingSign coupling_sign=Types.CouplingSign.reversed

@@ -42,15 +42,15 @@ class Variables "Variables; generated from the table of variables, do not edit"
 <tr><td>bias</td><td>1</td><td>0.0</td><td></td><td>-1 ... 1</td><td>1</td><td>bias added to both activations; the paper has none</td><td>paper</td></tr>
 <tr><td>o1_start</td><td>1</td><td>0.1</td><td>0.01</td><td>-1 ... 1</td><td>2</td><td>start output of neuron N1, the same for every leg</td><td>chosen: noise must not make phases near the origin; authors' code: 0.01</td></tr>
 <tr><td>o2_start</td><td>1</td><td>0.1</td><td>0.01</td><td>-1 ... 1</td><td>2</td><td>start output of neuron N2, the same for every leg</td><td>chosen: noise must not make phases near the origin; authors' code: 0.01</td></tr>
-<tr><td>a1</td><td>rad</td><td>0.141</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the hip</td><td>found by search for this robot, docs/decisions.md</td></tr>
-<tr><td>a2</td><td>rad</td><td>0.094</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions.md</td></tr>
-<tr><td>b1</td><td>rad</td><td>-0.35</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the hip</td><td>found by search for this robot, docs/decisions.md</td></tr>
-<tr><td>b2</td><td>rad</td><td>0.052</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions.md</td></tr>
-<tr><td>turn_gain</td><td>1</td><td>0.5</td><td></td><td>0 ... 1</td><td>4</td><td>relative change of the amplitudes at full steering</td><td>chosen: feet of the inner side still lift at full steering</td></tr>
+<tr><td>a1</td><td>rad</td><td>0.14</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the hip</td><td>found by search for this robot, docs/decisions.md</td></tr>
+<tr><td>a2</td><td>rad</td><td>0.14</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions.md</td></tr>
+<tr><td>b1</td><td>rad</td><td>-0.26</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the hip</td><td>found by search for this robot, docs/decisions.md</td></tr>
+<tr><td>b2</td><td>rad</td><td>0.05</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions.md</td></tr>
+<tr><td>turn_gain</td><td>1</td><td>0.95</td><td></td><td>0 ... 1</td><td>4</td><td>relative change of the amplitudes at full steering</td><td>chosen: feet of the inner side still lift at full steering</td></tr>
 <tr><td>A_f</td><td>1</td><td>0.57</td><td></td><td>0 ... 1</td><td>7</td><td>retention of the fast learner</td><td>paper</td></tr>
-<tr><td>B_f</td><td>1</td><td>0.182</td><td>0.002</td><td>0 ... 1</td><td>7</td><td>learning rate of the fast learner</td><td>found by search for this robot, docs/decisions.md</td></tr>
+<tr><td>B_f</td><td>1</td><td>0.21</td><td>0.002</td><td>0 ... 1</td><td>7</td><td>learning rate of the fast learner</td><td>found by search for this robot, docs/decisions.md</td></tr>
 <tr><td>A_s</td><td>1</td><td>0.99</td><td></td><td>0 ... 1</td><td>8</td><td>retention of the slow learner</td><td>paper</td></tr>
-<tr><td>B_s</td><td>1</td><td>0.00045</td><td>0.0002</td><td>0 ... 1</td><td>8</td><td>learning rate of the slow learner</td><td>found by search for this robot, docs/decisions.md</td></tr>
+<tr><td>B_s</td><td>1</td><td>0.00075</td><td>0.0002</td><td>0 ... 1</td><td>8</td><td>learning rate of the slow learner</td><td>found by search for this robot, docs/decisions.md</td></tr>
 <tr><td>alpha</td><td>1</td><td>0.9</td><td></td><td>0 ... 1</td><td>10</td><td>scale of the expected load</td><td>paper</td></tr>
 <tr><td>rho</td><td>1</td><td>0.99</td><td></td><td>0 ... 1</td><td>10</td><td>shape of the expected load</td><td>paper</td></tr>
 <tr><td>forward_model</td><td></td><td>ForwardModel.low_pass_hip</td><td></td><td></td><td>10, 11</td><td>what the expected load is made of</td><td>paper</td></tr>
@@ -61,8 +61,8 @@ class Variables "Variables; generated from the table of variables, do not edit"
 <tr><td>sigma</td><td>rad</td><td>0.4</td><td></td><td>0 ... 10</td><td>16</td><td>threshold of d below which the phases count as stable</td><td>paper</td></tr>
 <tr><td>kappa_rule</td><td></td><td>KappaRule.armed</td><td>KappaRule.printed</td><td></td><td>16</td><td>when the couplings switch on; the paper prints Eq. 16</td><td>authors' code arms kappa; the hold is chosen</td></tr>
 <tr><td>kappa_hold</td><td></td><td>100</td><td></td><td>1 ... 1e+06</td><td>16</td><td>ticks that d stays at or below sigma before kappa switches on</td><td>found by search for this robot, docs/decisions.md</td></tr>
-<tr><td>xi</td><td>1</td><td>0.025</td><td>0.01</td><td>0 ... 1</td><td>17</td><td>gain of the neural communication</td><td>found by search for this robot, docs/decisions.md</td></tr>
-<tr><td>feedback_kept</td><td>1</td><td>0.2</td><td>1.0</td><td>0 ... 1</td><td>5</td><td>share of the sensory feedback that stays while the couplings are on; 1 as in the equations</td><td>sections 3.2.1 and 4.3 let gamma become small once the couplings are on</td></tr>
+<tr><td>xi</td><td>1</td><td>0.01</td><td>0.01</td><td>0 ... 1</td><td>17</td><td>gain of the neural communication</td><td>found by search for this robot, docs/decisions.md</td></tr>
+<tr><td>feedback_kept</td><td>1</td><td>0.1</td><td>1.0</td><td>0 ... 1</td><td>5</td><td>share of the sensory feedback that stays while the couplings are on; 1 as in the equations</td><td>sections 3.2.1 and 4.3 let gamma become small once the couplings are on</td></tr>
 <tr><td>coupling_sign</td><td></td><td>CouplingSign.reversed</td><td>CouplingSign.printed</td><td></td><td>18</td><td>sign of the coupling term; the paper prints plus</td><td>authors' code</td></tr>
 <tr><td>phi_frozen</td><td></td><td>true</td><td>false</td><td></td><td>17</td><td>true: the couplings hold the phases measured when kappa switched on; false: the phases measured now, as Eq. 17 reads</td><td>authors' code</td></tr>
 <tr><td>MI_zero_resets</td><td></td><td>true</td><td>false</td><td></td><td>3</td><td>true: MI = 0 acts as reset; false: the oscillators run on at w12 = w12_0, as Eq. 3 reads</td><td>authors' code</td></tr>
