@@ -281,5 +281,6 @@ class LeggedPlant:
 
 
 def side_offset(robot: RobotDescription, random: np.random.Generator) -> float:
+    """Sideways error of the trunk's centre of mass [m], drawn anew."""
     side = random.choice([-1.0, 1.0])
     return float(side * robot.trunk.com_side_offset * random.uniform(0.75, 1.25))
