@@ -37,6 +37,17 @@ def test_default_walk_forms_a_trot_and_keeps_it(seed: int) -> None:
     assert metrics.phase_error(c["o1"], c["o2"], trot)[-300:].max() < 0.3
 
 
+@pytest.mark.parametrize("seed", range(2))
+def test_the_hexapod_forms_a_tripod_and_keeps_it(seed: int) -> None:
+    record, summary = walked(robot="hexapod", seed=seed)
+    assert summary.converged and not summary.fell
+    assert summary.convergence_time_s is not None and summary.convergence_time_s < 10.0
+    assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.03
+    c = record.controller
+    tripod = np.array(metrics.GAITS[6]["tripod"])
+    assert metrics.phase_error(c["o1"], c["o2"], tripod)[-300:].max() < metrics.STRICT_TOLERANCE
+
+
 def test_trot_forms_under_the_payload() -> None:
     _, summary = walked(mi=0.15, conditions="C4")
     assert summary.converged and not summary.fell

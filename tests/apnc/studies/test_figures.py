@@ -196,7 +196,7 @@ def test_the_table_of_states() -> None:
     assert text.splitlines()[2:4] == [
         "| with ANC | S1 | the gait forms and lasts to the break | 6/6 (54 ... 100 %) | "
         "1.5 (1.5 ... 1.5) | 0.110 (0.110 ... 0.110) |",
-        "| with ANC | S2 | keeps the trot at every moment and walks, front sensors stuck | "
+        "| with ANC | S2 | keeps the gait at every moment and walks, front sensors stuck | "
         "4/6 (22 ... 96 %) | - | 0.210 (0.210 ... 0.210) |",
     ]
     assert (

