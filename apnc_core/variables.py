@@ -136,7 +136,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "turn_gain", "", "relative change of the amplitudes at full steering",
         start=0.95, unit="1", min=0.0, max=1.0, nominal=1.0, equation="4",
-        source="chosen: feet of the inner side still lift at full steering",
+        source="found by search: turns by 0.28 rad/s at half steering",
     ),
     _parameter(
         "A_f", "A_f", "retention of the fast learner",

@@ -1042,7 +1042,7 @@ static const apnc_row apnc_rows[APNC_ROWS] = {
     {"b2", "b2", "", AT(parameters, b2), 1, APNC_REAL, APNC_TUNABLE, 0.05, -1.6, 1.6},
     {"turn_gain", "turn_gain", "", AT(parameters, turn_gain), 1, APNC_REAL, APNC_TUNABLE, 0.95, 0.0, 1.0},
     {"A_f", "A_f", "", AT(parameters, A_f), 1, APNC_REAL, APNC_TUNABLE, 0.57, 0.0, 1.0},
-    {"B_f", "B_f", "", AT(parameters, B_f), 1, APNC_REAL, APNC_TUNABLE, 0.2, 0.0, 1.0},
+    {"B_f", "B_f", "", AT(parameters, B_f), 1, APNC_REAL, APNC_TUNABLE, 0.21, 0.0, 1.0},
     {"A_s", "A_s", "", AT(parameters, A_s), 1, APNC_REAL, APNC_TUNABLE, 0.99, 0.0, 1.0},
     {"B_s", "B_s", "", AT(parameters, B_s), 1, APNC_REAL, APNC_TUNABLE, 0.00075, 0.0, 1.0},
     {"alpha", "alpha", "", AT(parameters, alpha), 1, APNC_REAL, APNC_TUNABLE, 0.9, 0.0, 1.0},
