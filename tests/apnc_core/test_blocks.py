@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -71,9 +72,10 @@ def test_motor_neurons_are_linear() -> None:
 
 
 def test_turning_left_steepens_the_right_legs() -> None:
-    scale = motor_neurons.amplitude_scale(1.0, 4, P)
+    half = replace(P, turn_gain=0.5)
+    scale = motor_neurons.amplitude_scale(1.0, 4, half)
     assert scale == pytest.approx([1.5, 1.5, 0.5, 0.5])
-    assert motor_neurons.amplitude_scale(-1.0, 6, P) == pytest.approx([0.5] * 3 + [1.5] * 3)
+    assert motor_neurons.amplitude_scale(-1.0, 6, half) == pytest.approx([0.5] * 3 + [1.5] * 3)
 
 
 def test_load_is_over_half_the_weight_and_nonsense_counts_as_zero() -> None:

@@ -90,7 +90,7 @@ def test_types_of_fmi_3_have_no_description() -> None:
     """FMPy 0.3.23 and older refuse a file that has one."""
     root = description(fmu_bytes(BuildOptions(platforms=(), fmi=3)))
     types = root.findall("TypeDefinitions/*")
-    assert len(types) == 8
+    assert len(types) == 9
     assert [t.get("name") for t in types if t.get("description")] == []
 
 
