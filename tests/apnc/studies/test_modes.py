@@ -116,7 +116,7 @@ def test_the_reduced_plant_forms_the_trot() -> None:
     run = Experiment(robot=robot, mi=0.15, duration=12.0, method="apc")
     c = simulate(run, plant=SpringTrunk(robot)).controller
     error = metrics.phase_error(c["o1"], c["o2"], metrics.GAITS[4]["trot"])
-    assert error[0] > 3.0
+    assert error[0] > 2.5  # in phase, but for the first loads
     assert error[-120:].max() < metrics.STRICT_TOLERANCE
 
 

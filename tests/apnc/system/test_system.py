@@ -17,6 +17,7 @@ from apnc.cli import main as command_line
 from apnc.loop.gait import Gait, write_gait
 from apnc.system.build import build_system
 from apnc.system.structure import structure_of
+from apnc_core.interface import Parameters
 
 SSP = "{http://ssp-standard.org/SSP1/SystemStructureDescription}"
 SSV = "{http://ssp-standard.org/SSP1/SystemStructureParameterValues}"
@@ -112,7 +113,7 @@ def values(file: Path) -> dict[str, str]:
 
 def test_the_parameter_sets_hold_the_preset(folder: Path, tmp_path: Path) -> None:
     controller = values(folder / "resources/controller.ssv")
-    assert controller["MI"] == "0.15" and float(controller["xi"]) == 0.025
+    assert controller["MI"] == "0.15" and float(controller["xi"]) == Parameters().xi
     assert float(controller["robot_weight"]) == pytest.approx(24.525)
     assert values(folder / "resources/plant.ssv")["seed"] == "3"
     settings = {"stored": True, "phi_stored": (3.1, 3.2, 0.1)}
