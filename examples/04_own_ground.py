@@ -17,7 +17,7 @@ class Hill(apnc.Surface):
     kind: ClassVar[str] = "hill"
 
     at: float = 0.6
-    height: float = 0.01
+    height: float = 0.015
     radius: float = 1.5
 
     @property
