@@ -11,9 +11,11 @@ from apnc import metrics
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
+from apnc.studies import gait, steering
 from apnc.studies.contact.measure import GRADUAL, SUDDEN, errors, trot
 from apnc.studies.states.measure import measure
 from apnc.studies.states.timeline import TIMELINE
+from apnc.studies.steering import course
 from apnc.studies.study import WALK_MI
 from apnc.summary import Summary, summarise
 
@@ -54,6 +56,39 @@ def test_trot_forms_under_the_payload(mi: float) -> None:
     _, summary = walked(mi=mi, conditions="C4")
     assert summary.converged and not summary.fell
     assert summary.late_speed_m_per_s is not None and summary.late_speed_m_per_s > 0.06
+
+
+@pytest.mark.parametrize("mi", [0.06, 0.32])
+@pytest.mark.parametrize("seed", range(2))
+def test_the_trot_forms_at_the_ends_of_mi(mi: float, seed: int) -> None:
+    _, summary = walked(mi=mi, seed=seed, duration=25.0)
+    assert summary.converged and not summary.fell
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_every_foot_lifts_holds_and_touches_once_on_a_straight_way(seed: int) -> None:
+    record, summary = walked(mi=0.22, seed=seed, duration=30.0)
+    worst = gait.measure(record)
+    assert worst[gait.LIFT] > 6.0 and worst[gait.SLIP] < 0.12
+    assert worst[gait.TOUCHES] == pytest.approx(1.0, abs=0.05)
+    assert summary.turned_deg is not None and abs(summary.turned_deg) < 30.0
+
+
+def test_half_steering_turns_alike_to_both_sides() -> None:
+    turn = ((0.0, 0.0), (8.0, 0.5), (18.0, -0.5))
+    record, _ = walked(mi=0.15, duration=28.0, turn=turn)
+    yaw = np.unwrap(record.plant["rpy"][:, 2])
+    left, right = (yaw[1079] - yaw[660]) / 7.0, (yaw[1260] - yaw[1679]) / 7.0
+    assert left > 0.25 and right > 0.25
+    assert left == pytest.approx(right, rel=0.2)
+
+
+def test_speed_follows_mi_and_comes_back() -> None:
+    record, _ = walked(duration=60.0, mi=course.SPEEDS)
+    found = steering.measure(record)
+    slow, fast, again = (found[f"{course.SPEED}_{i}"] for i in (1, 2, 3))
+    assert fast > 1.6 * slow
+    assert again == pytest.approx(slow, rel=0.02)
 
 
 def test_without_the_limit_of_loads_the_payload_changes_the_feedback() -> None:
