@@ -59,6 +59,8 @@ def test_ctrl_c_in_a_study_also_reaches_workers_and_is_no_traceback(
 
 
 def test_before_a_loop_asks_ctrl_c_raises_afterwards_the_second_does() -> None:
+    # a shell that starts something in the background has it ignore Ctrl-C
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     stop = StopRequest()
     with stop.listening():
         with pytest.raises(Interrupted):

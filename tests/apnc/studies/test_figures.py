@@ -356,7 +356,7 @@ def test_contact_shows_error_and_chatter_over_the_step() -> None:
     del rows[0]["force_error"], rows[0]["chatter"]  # ended with an error
     (figure,) = contact.STUDY.figures(rows)
     shown = {trace["name"]: trace["x"] for trace in figure.data}
-    assert shown["force error, damping depth 0.4 mm"] == []
+    assert shown["force error, damping depth 0.2 mm"] == []
     assert shown["force error, damping depth 0.001 mm"] == [pytest.approx(1e3 / 60 / 8)]
     assert len(shown["chatter, damping depth 0.001 mm"]) == 2
     assert figure.layout["xaxis"]["type"] == figure.layout["yaxis"]["type"] == "log"
