@@ -112,7 +112,7 @@ def _motion(record: Record, begin: int) -> dict[str, Any]:
     cost = metrics.cost_of_transport(time, plant["joint_work"], record.mass, path)
     frequency = metrics.stride_frequency(starts, 1.0 / record.experiment.rate)
     pace = metrics.mean_speed(time[begin:], metrics.path_length(position[begin:]))
-    stride, slips = _stride_length(pace, frequency), metrics.slips(feet, standing, starts)
+    stride, slips = metrics.stride_length(pace, frequency), metrics.slips(feet, standing, starts)
     touches = metrics.touch_downs_per_stride(standing, starts)
 
     def by_leg(values: Sequence[float | None], unit: float = 1.0) -> dict[str, float | None]:
@@ -138,13 +138,6 @@ def _motion(record: Record, begin: int) -> dict[str, Any]:
         "coordination": metrics.coordination(standing, starts, speed),
         "cost_of_transport": cost,
     }
-
-
-def _stride_length(speed: float | None, frequency: float | None) -> float | None:
-    """Way in a stride [m]; None if the robot stands, or none of its oscillators goes round."""
-    if speed is None or speed < metrics.MIN_SPEED or frequency is None:
-        return None
-    return speed / frequency
 
 
 def _formation(record: Record, touch: int | None) -> dict[str, Any]:

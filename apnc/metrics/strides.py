@@ -65,6 +65,16 @@ def stride_frequency(starts: Sequence[Array], sample_time: float) -> float | Non
     return float(np.mean([1.0 / period for period in periods])) if periods else None
 
 
+def stride_length(speed: float | None, frequency: float | None) -> float | None:
+    """Way in a stride [m], of the speed along the path [m/s] and the stride frequency [Hz].
+
+    None if the robot stands, or none of its oscillators goes round.
+    """
+    if speed is None or speed < MIN_SPEED or frequency is None:
+        return None
+    return speed / frequency
+
+
 def duty_factors(standing: Bool, starts: Sequence[Array]) -> list[float | None]:
     """Duty factor per leg [1]: mean share of stance over its strides; None for a leg without one.
 

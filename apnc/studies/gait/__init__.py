@@ -48,9 +48,7 @@ def measure(record: Record) -> Row:
     feet = record.plant["foot_position"][part]
     frequency = metrics.stride_frequency(starts, 1.0 / record.experiment.rate)
     way = metrics.path_length(record.plant["position"][part])
-    speed = metrics.mean_speed(record.time[part], way)
-    moves = speed is not None and speed >= metrics.MIN_SPEED
-    stride = speed / frequency if moves and speed and frequency else None
+    stride = metrics.stride_length(metrics.mean_speed(record.time[part], way), frequency)
     lifts = _known(metrics.foot_lifts(feet, standing, starts))
     slips = _known(metrics.slips(feet, standing, starts))
     touches = _known(metrics.touch_downs_per_stride(standing, starts))
@@ -116,11 +114,11 @@ def worst(column: str, unit: str, digits: int, scale: float, fits: tuple[float, 
         for mi in cells:
             own = matching(rows, mi=mi)
             found = values(own, column)
-            middle_value = float(np.median(found)) if len(found) > len(own) / 2 else None
-            fit = middle_value is not None and low <= middle_value <= high
+            median_value = float(np.median(found)) if len(found) > len(own) / 2 else None
+            fit = median_value is not None and low <= median_value <= high
             inside += fit
             if not fit:
-                shown = "-" if middle_value is None else f"{scale * middle_value:.{digits}f}"
+                shown = "-" if median_value is None else f"{scale * median_value:.{digits}f}"
                 texts.append(f"{shown} at {mi:g}")
         text = f"at {inside} of {len(cells)} MI" + (f"; {unit} {', '.join(texts)}" if texts else "")
         return Finding(text, verdict(inside == len(cells) > 0, inside > len(cells) / 2))

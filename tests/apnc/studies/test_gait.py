@@ -106,6 +106,17 @@ def test_the_worst_foot_counts_and_only_from_ten_seconds_on() -> None:
     assert gait.measure(changed(record, foot_position=feet)) == found
 
 
+def test_a_foot_that_touches_twice_is_the_worst_of_clean_ones() -> None:
+    record = synthetic_record(30.0)
+    force = record.plant["foot_force"].copy()
+    down = force[:, 1, 2] > 0.0
+    begins, ends = (np.flatnonzero(np.diff(down.astype(int)) == sign) for sign in (1, -1))
+    for begin in begins:
+        middle = (begin + ends[ends > begin].min(initial=len(down))) // 2
+        force[middle - 2 : middle + 3, 1] = 0.0  # lifted for five samples in every stance
+    assert gait.measure(changed(record, foot_force=force))[gait.TOUCHES] == pytest.approx(2.0)
+
+
 def test_a_run_that_ended_early_or_stands_has_no_figures() -> None:
     record = synthetic_record(30.0)
     none = dict.fromkeys((gait.LIFT, gait.SLIP, gait.TOUCHES))

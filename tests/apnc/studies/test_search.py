@@ -19,6 +19,7 @@ from apnc.studies.search.costs import (
     BANDS,
     COSTS,
     STEERING,
+    WANTED_STEERING,
     WANTED_TURN,
     _StuckSensor,
     blocked_cost,
@@ -26,6 +27,7 @@ from apnc.studies.search.costs import (
     formation_cost,
     payload_cost,
     ratio_cost,
+    steering_cost,
     walk_cost,
 )
 from apnc.studies.search.knobs import KNOBS, PUBLISHED, built_robot, gains
@@ -122,6 +124,23 @@ def test_stopped_oscillators_cost_half_each() -> None:
 
 def test_turning_goes_left_and_then_right() -> None:
     assert Experiment(**STEERING).turn == ((0.0, 0.0), (3.0, 0.5), (7.5, -0.5))
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "cost"),
+    [(1.0, 1.0, 0.0), (1.2, 1.2, 0.0), (0.5, 0.5, 1.0), (1.0, 0.5, 1.0), (0.0, 0.0, 2.0)],
+)
+def test_slow_and_unlike_turns_cost(
+    left: float, right: float, cost: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In shares of what is asked for: what is missing on each side, and the difference."""
+    record = synthetic_record(12.0)
+    rate = np.where(record.time < 7.5, left, -right) * WANTED_STEERING
+    rpy = record.plant["rpy"].copy()
+    rpy[:, 2] = np.cumsum(rate) / 60.0
+    turned = replace(record, plant={**record.plant, "rpy": rpy})
+    monkeypatch.setattr("apnc.studies.search.costs.simulate", lambda experiment: turned)
+    assert steering_cost(Experiment(**STEERING)) == pytest.approx(cost, abs=0.02)
 
 
 def test_the_stuck_sensor_sticks_after_its_ticks() -> None:
