@@ -72,8 +72,8 @@ class Parameters:
     w11: float = 1.4
     w12_0: float = 0.21
     bias: float = 0.0
-    o1_start: float = 0.1
-    o2_start: float = 0.1
+    o1_start: float = 0.01
+    o2_start: float = 0.01
     a1: float = 0.14
     a2: float = 0.14
     b1: float = -0.26
@@ -88,7 +88,7 @@ class Parameters:
     forward_model: ForwardModel = ForwardModel.low_pass_hip
     rbf_rate: float = 0.02
     phase_measure: PhaseMeasure = PhaseMeasure.vector
-    phase_filter: float = 0.02
+    phase_filter: float = 0.05
     N: int = 50
     sigma: float = 0.4
     kappa_rule: KappaRule = KappaRule.armed

@@ -103,15 +103,13 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "o1_start", "o_1(0)", "start output of neuron N1, the same for every leg",
-        variability="fixed", start=0.1, paper=0.01, unit="1", min=-1.0, max=1.0, nominal=0.1,
-        equation="2",
-        source="chosen: noise must not make phases near the origin; authors' code: 0.01",
+        variability="fixed", start=0.01, paper=0.01, unit="1", min=-1.0, max=1.0, nominal=0.1,
+        equation="2", source="authors' code",
     ),
     _parameter(
         "o2_start", "o_2(0)", "start output of neuron N2, the same for every leg",
-        variability="fixed", start=0.1, paper=0.01, unit="1", min=-1.0, max=1.0, nominal=0.1,
-        equation="2",
-        source="chosen: noise must not make phases near the origin; authors' code: 0.01",
+        variability="fixed", start=0.01, paper=0.01, unit="1", min=-1.0, max=1.0, nominal=0.1,
+        equation="2", source="authors' code",
     ),
     _parameter(
         "a1", "a_1", "slope of the motor neuron of the hip",
@@ -181,8 +179,8 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "phase_filter", "", "new part per tick in the low-pass of the vector phase measure",
-        start=0.02, paper=0.05, unit="1", min=1e-4, max=1.0, nominal=0.1, equation="12",
-        source="chosen; at the authors' 0.05 phases sway by more than sigma at MI < 0.08",
+        start=0.05, paper=0.05, unit="1", min=1e-4, max=1.0, nominal=0.1, equation="12",
+        source="authors' code",
     ),
     _parameter(
         "N", "N", "ticks in the mean of the relative phases", type=Type.integer,

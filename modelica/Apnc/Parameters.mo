@@ -44,10 +44,10 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Real bias(unit="1", min=-1.0, max=1.0)=0.0
       "bias added to both activations; the paper has none (Eq. 1)"
       annotation (Dialog(group="Oscillator"));
-    parameter Real o1_start(unit="1", min=-1.0, max=1.0)=0.1
+    parameter Real o1_start(unit="1", min=-1.0, max=1.0)=0.01
       "start output of neuron N1, the same for every leg (Eq. 2)"
       annotation (Dialog(group="Oscillator"));
-    parameter Real o2_start(unit="1", min=-1.0, max=1.0)=0.1
+    parameter Real o2_start(unit="1", min=-1.0, max=1.0)=0.01
       "start output of neuron N2, the same for every leg (Eq. 2)"
       annotation (Dialog(group="Oscillator"));
   end Oscillator;
@@ -119,7 +119,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Types.PhaseMeasure phase_measure=Types.PhaseMeasure.vector
       "how the relative phases are measured; the paper prints peak (Eq. 12)"
       annotation (Dialog(group="PhaseAcquisition"));
-    parameter Real phase_filter(unit="1", min=0.0001, max=1.0)=0.02
+    parameter Real phase_filter(unit="1", min=0.0001, max=1.0)=0.05
       "new part per tick in the low-pass of the vector phase measure (Eq. 12)"
       annotation (Dialog(group="PhaseAcquisition"));
   end PhaseAcquisition;

@@ -1,13 +1,15 @@
 """``python -m apnc.studies.search --output runs/search``; needs the extra ``search``.
 
-Writes every candidate with its cost to ``search.csv``. The same seed, workers or not, gives the
-same search.
+Writes every candidate with its costs to ``search.csv``. The same seed, workers or not, gives the
+same search. ``apnc.studies.search.front`` finds the best of all candidates of some logs.
 """
 
 from __future__ import annotations
 
 import csv
+import functools
 import importlib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -15,51 +17,61 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
-from apnc.studies.search.costs import COSTS, FAILED, costs
-from apnc.studies.search.knobs import KNOBS, Candidate
+from apnc.studies.search.costs import FAILED, costs, names
+from apnc.studies.search.knobs import Candidate, Knob, knobs_of, start
 from apnc.studies.workers import pool
 from build_fmu.build import host_fmu
+from exudyn_models.robot import load_robot
+
+Array = NDArray[np.float64]
 
 
 def search(
     output: Annotated[Path, typer.Option(help="Folder for search.csv.")] = Path("runs/search"),
+    robot: Annotated[str, typer.Option(help="Name of the robot.")] = "lilibot",
+    method: Annotated[str, typer.Option(help="Controller: apnc, tegotae, phase_reset.")] = "apnc",
+    own_robot: Annotated[bool, typer.Option(help="A baseline's robot and pose, too.")] = False,
+    feet: Annotated[float, typer.Option(help="Weight of lift, slip, touches and turn.")] = 1.0,
     seed: Annotated[int, typer.Option(help="Of optimiser and trials.")] = 1,
     generations: Annotated[int, typer.Option(help="How many.")] = 60,
+    candidates: Annotated[int, typer.Option(help="In a generation.")] = 14,
     workers: Annotated[int, typer.Option(help="Processes.")] = 1,
     sigma: Annotated[float, typer.Option(help="First spread, share of the ranges.")] = 0.15,
-    start: Annotated[Path | None, typer.Option(help="Log whose last mean is the start.")] = None,
+    begin: Annotated[Path | None, typer.Option(help="Log whose last mean is the start.")] = None,
 ) -> None:
     """Search and print the mean of the last distribution.
 
     Every generation has a new random robot and noise, the same for its candidates.
     """
-    try:
-        cma: Any = importlib.import_module("cma")
-    except ModuleNotFoundError:
-        raise RuntimeError('the search needs the extra: pip install "apnc[search]"') from None
+    knobs = knobs_of(robot, method, own_robot=own_robot)
+    first = [_within(knob.place(value)) for knob, value in _begin(robot, knobs, begin)]
+    strategy = _strategy(first, sigma, seed, candidates)
     output.mkdir(parents=True, exist_ok=True)
     host_fmu()  # built once here, not by every worker at the same time
-    settings = {"bounds": [0.0, 1.0], "seed": seed, "popsize": 14, "verbose": -9}
-    strategy: Any = cma.CMAEvolutionStrategy(_start(start), sigma, settings)
+    parts = names(len(load_robot(robot).legs))
+    weights = [feet if name.startswith("feet") else 1.0 for name in parts]
+    judge = functools.partial(_costs, parts=len(parts), robot=robot, method=method)
     mean: Candidate = {}
     with (
         (output / "search.csv").open("w", newline="", encoding="utf-8") as file,
         pool(workers, None) as executor,
     ):
         log = csv.writer(file)
-        parts = [f"cost_{name}" for name in COSTS]
-        log.writerow(["generation", "cost", *parts, *(knob.name for knob in KNOBS)])
+        log.writerow(
+            ["generation", "cost", *(f"cost_{n}" for n in parts), *(k.name for k in knobs)]
+        )
         for generation in range(generations):
             points = strategy.ask()
-            candidates = [_candidate(x) for x in points]
-            seeds = [1000 * seed + generation] * len(candidates)
-            found = list((executor.map if executor else map)(_costs, candidates, seeds))
+            tried = [_candidate(knobs, x) for x in points]
+            seeds = [1000 * seed + generation] * len(tried)
+            found = list((executor.map if executor else map)(judge, tried, seeds))
             # squares: one large cost weighs more than many small ones
-            totals = [sum(cost + cost * cost for cost in each) for each in found]
+            weighed = np.multiply(found, weights)
+            totals = (weighed + weighed**2).sum(axis=1).tolist()
             strategy.tell(points, totals)
-            mean = _candidate(strategy.result.xfavorite)
+            mean = _candidate(knobs, strategy.result.xfavorite)
             middle = [float(np.median(totals)), *np.median(found, axis=0), *mean.values()]
-            for candidate, each, total in zip(candidates, found, totals, strict=True):
+            for candidate, each, total in zip(tried, found, totals, strict=True):
                 row = [total, *each, *candidate.values()]
                 log.writerow([generation, *(f"{value:.5g}" for value in row)])
             log.writerow([f"mean{generation}", *(f"{value:.5g}" for value in middle)])
@@ -68,23 +80,76 @@ def search(
         typer.echo(f"{name} = {value:.4g}")
 
 
-def _costs(candidate: Candidate, seed: int) -> tuple[float, ...]:
+def _costs(
+    candidate: Candidate, seed: int, *, parts: int, robot: str, method: str
+) -> tuple[float, ...]:
     try:
-        return costs(candidate, seed)
+        return costs(candidate, seed, robot, method)
     except (ValueError, RuntimeError):
-        return (FAILED,) * len(COSTS)
+        return (FAILED,) * parts
 
 
-def _start(log: Path | None) -> list[float]:
-    if log is None:
-        return [knob.place(knob.start) for knob in KNOBS]
-    with log.open(newline="", encoding="utf-8") as file:
-        last = [row for row in csv.DictReader(file) if row["generation"].startswith("mean")][-1]
-    return [knob.place(float(last[knob.name])) for knob in KNOBS]
+def _within(x: float) -> float:
+    return min(1.0, max(0.0, x))
 
 
-def _candidate(x: NDArray[np.float64]) -> dict[str, float]:
-    return {knob.name: knob.value(float(v)) for knob, v in zip(KNOBS, x, strict=True)}
+def _begin(robot: str, knobs: Sequence[Knob], log: Path | None) -> list[tuple[Knob, float]]:
+    shipped = load_robot(robot)
+    values = {knob.name: start(shipped, knob.name) for knob in knobs}
+    if log is not None:
+        with log.open(newline="", encoding="utf-8") as file:
+            last = [r for r in csv.DictReader(file) if r["generation"].startswith("mean")][-1]
+        values |= {name: float(last[name]) for name in values if name in last}
+    return [(knob, values[knob.name]) for knob in knobs]
+
+
+def _strategy(first: Sequence[float], sigma: float, seed: int, candidates: int) -> Any:
+    """CMA-ES; for a single number, which that does not search, an even look at all of its range."""
+    if len(first) == 1:
+        return Spread(candidates, seed)
+    try:
+        cma: Any = importlib.import_module("cma")
+    except ModuleNotFoundError:
+        raise RuntimeError('the search needs the extra: pip install "apnc[search]"') from None
+    settings = {"bounds": [0.0, 1.0], "seed": seed, "popsize": candidates, "verbose": -9}
+    return cma.CMAEvolutionStrategy(first, sigma, settings)
+
+
+class Spread:
+    """One number, looked at all over its range in every generation, with the interface of ``cma``.
+
+    Its favourite has the lowest mean over its neighbours of all generations.
+    """
+
+    def __init__(self, candidates: int, seed: int) -> None:
+        self._count, self._random = candidates, np.random.default_rng(seed)
+        self._x: list[float] = []
+        self._cost: list[float] = []
+
+    def ask(self) -> list[Array]:
+        """A value in every equal part of the range."""
+        return [np.array([(n + self._random.random()) / self._count]) for n in range(self._count)]
+
+    def tell(self, points: Sequence[Array], totals: Sequence[float]) -> None:
+        """Costs of the values."""
+        self._x += [float(point[0]) for point in points]
+        self._cost += totals
+
+    @property
+    def result(self) -> Spread:
+        """This, which has the favourite."""
+        return self
+
+    @property
+    def xfavorite(self) -> Array:
+        """The value with the lowest mean cost within half a part of the range."""
+        x, cost = np.array(self._x), np.array(self._cost)
+        near = np.abs(x[:, None] - x) <= 0.5 / self._count
+        return np.array([x[np.argmin(near @ cost / near.sum(axis=1))]])
+
+
+def _candidate(knobs: Sequence[Knob], x: Array) -> dict[str, float]:
+    return {knob.name: knob.value(float(v)) for knob, v in zip(knobs, x, strict=True)}
 
 
 if __name__ == "__main__":

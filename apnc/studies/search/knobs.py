@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 from apnc.studies.robots import changed, constant
-from exudyn_models.robot import RobotDescription, load_robot
+from apnc_core.interface import Parameters
+from exudyn_models.robot import Leg, RobotDescription, load_robot
 
 
 class Knob(NamedTuple):
@@ -16,7 +18,6 @@ class Knob(NamedTuple):
     name: str
     low: float
     high: float
-    start: float
     log: bool = False
 
     def value(self, x: float) -> float:
@@ -35,39 +36,133 @@ class Knob(NamedTuple):
 Candidate = Mapping[str, float]
 """Values by the names of their knobs."""
 
-KNOBS: Final = (
-    Knob("b1", -0.5, 0.0, -0.26),
-    Knob("b2", -0.4, 0.2, 0.05),
-    Knob("trunk.com_x", 0.0, 0.06, 0.0445),
-    Knob("trunk.com_z", -0.016, 0.02, -0.014),
-    Knob("servo.stiffness", 14.0, 24.0, 20, log=True),
-    Knob("servo.damping", 0.7, 1.1, 0.86, log=True),
-    Knob("servo.reflected_inertia", 0.0075, 0.02, 0.0082, log=True),
-    Knob("contact.stiffness", 3e3, 4e4, 4800, log=True),
-    Knob("contact.damping", 450.0, 800.0, 500, log=True),
-    Knob("sensor.delay", 0.005, 0.07, 0.011),
-    Knob("B_f", 0.02, 0.5, 0.21, log=True),
-    Knob("B_s", 1e-4, 1e-2, 0.00075, log=True),
-    Knob("turn_gain", 0.4, 1.0, 0.95),
+_BODY: Final = (
+    Knob("servo.stiffness", 14.0, 24.0, log=True),
+    Knob("servo.damping", 0.7, 1.1, log=True),
+    Knob("servo.reflected_inertia", 0.0075, 0.02, log=True),
+    Knob("contact.stiffness", 3e3, 4e4, log=True),
+    Knob("contact.damping", 300.0, 800.0, log=True),
+    Knob("sensor.delay", 0.005, 0.07),
 )
 
-PUBLISHED: Final[Candidate] = {"a1": 0.14, "a2": 0.14, "xi": 0.01}
-"""The authors' slopes and the paper's gain of the couplings: not searched."""
+_POSE: Final = (Knob("b1", -0.5, 0.0), Knob("b2", -0.4, 0.2))
+
+_LEARNING: Final = (
+    Knob("B_f", 0.02, 0.5, log=True),
+    Knob("B_s", 1e-4, 1e-2, log=True),
+    Knob("turn_gain", 0.4, 1.0),
+)
+
+_MANY_LEGS: Final = (
+    Knob("a1", 0.1, 0.22),
+    Knob("a2", 0.1, 0.25),
+    Knob("b1", -0.3, 0.2),
+    Knob("b2", -0.3, 0.2),
+    Knob("outer.y", 0.03, 0.07),
+    Knob("inner.y", 0.07, 0.15),
+    Knob("inner.z", -0.004, 0.004),
+    Knob("trunk.com_x", -0.05, 0.05),
+    Knob("trunk.com_z", -0.016, 0.02),
+    Knob("trunk.com_side_offset", 0.002, 0.02),
+    Knob("servo.stiffness", 14.0, 80.0, log=True),
+    Knob("servo.damping", 0.7, 2.5, log=True),
+    Knob("servo.reflected_inertia", 0.0075, 0.02, log=True),
+    Knob("contact.stiffness", 3e3, 4e4, log=True),
+    Knob("contact.damping", 300.0, 800.0, log=True),
+    Knob("sensor.delay", 0.005, 0.07),
+    Knob("B_f", 0.1, 1.0, log=True),
+    Knob("B_s", 1e-4, 2e-2, log=True),
+)
+
+KNOBS: Final[Mapping[str, tuple[Knob, ...]]] = {
+    "lilibot": (
+        *_POSE,
+        Knob("trunk.com_x", 0.0, 0.06),
+        Knob("trunk.com_z", -0.016, 0.02),
+        Knob("trunk.com_side_offset", 0.0, 0.006),
+        *_BODY,
+        *_LEARNING,
+    ),
+    "hexapod": (*_MANY_LEGS, Knob("inner.x", -0.03, 0.03)),
+    "octopod": _MANY_LEGS,
+}
+"""By robot."""
+
+OWN: Final[Mapping[str, Knob]] = {
+    "tegotae": Knob("gamma_tegotae", 0.004, 0.4, log=True),
+    "phase_reset": Knob("grf_reset", 0.05, 1.6, log=True),
+}
+"""The free number of each baseline."""
 
 
-def built_robot(candidate: Candidate) -> RobotDescription:
-    """Lilibot with the physical unknowns of a candidate."""
-    robot = load_robot("lilibot")
-    for name, value in candidate.items():
-        if name in ("trunk.com_x", "trunk.com_z"):
+def knobs_of(robot: str, method: str, *, own_robot: bool = False) -> tuple[Knob, ...]:
+    """What is searched for a controller.
+
+    Args:
+        robot: name of the robot.
+        method: name of the controller; of a baseline its own number.
+        own_robot: for a baseline the pose and the robot, too, as they are for APNC.
+
+    Raises:
+        ValueError: a robot or a method that is not searched.
+    """
+    if robot not in KNOBS:
+        raise ValueError(f"robot '{robot}' is not one of {', '.join(KNOBS)}")
+    if method == "apnc":
+        return KNOBS[robot]
+    if method not in OWN:
+        raise ValueError(f"method '{method}' is not one of apnc, {', '.join(OWN)}")
+    learning = {knob.name for knob in _LEARNING}
+    shared = [knob for knob in KNOBS[robot] if own_robot and knob.name not in learning]
+    return (OWN[method], *shared)
+
+
+def start(robot: RobotDescription, name: str) -> float:
+    """The shipped value of a knob."""
+    if "." not in name:
+        return float(robot.controller.get(name, getattr(Parameters(), name)))
+    if name in ("trunk.com_x", "trunk.com_z"):
+        return robot.trunk.body.com["xyz".index(name[-1])]
+    part, field = name.split(".")
+    if part in ("inner", "outer"):
+        leg = next(leg for leg in robot.legs if _is_outer(robot, leg) == (part == "outer"))
+        return abs(leg.mount[1]) if field == "y" else leg.mount["xyz".index(field)]
+    return float(getattr(getattr(robot, part), field))
+
+
+def built_robot(candidate: Candidate, name: str = "lilibot") -> RobotDescription:
+    """A robot with the physical unknowns of a candidate."""
+    robot = load_robot(name)
+    for knob, value in candidate.items():
+        part, _, field = knob.partition(".")
+        if knob in ("trunk.com_x", "trunk.com_z"):
             com = list(robot.trunk.body.com)
-            com["xyz".index(name[-1])] = value
+            com["xyz".index(field[-1])] = value
             robot = changed(robot, "trunk.body.com", constant(tuple(com)))
-        elif "." in name:
-            robot = changed(robot, name, constant(value))
+        elif part in ("inner", "outer"):
+            robot = _stood(robot, part == "outer", "xyz".index(field), value)
+        elif field:
+            robot = changed(robot, knob, constant(value))
     return robot
+
+
+def _is_outer(robot: RobotDescription, leg: Leg) -> bool:
+    """Whether a leg is of the first or the last pair."""
+    along = [other.mount[0] for other in robot.legs]
+    return leg.mount[0] in (min(along), max(along))
+
+
+def _stood(robot: RobotDescription, outer: bool, axis: int, value: float) -> RobotDescription:
+    """The outer or the inner legs moved; y is away from the middle plane, on either side."""
+    legs = []
+    for leg in robot.legs:
+        mount = list(leg.mount)
+        mount[axis] = leg.side * value if axis == 1 else value
+        moved = _is_outer(robot, leg) == outer
+        legs.append(replace(leg, mount=(mount[0], mount[1], mount[2])) if moved else leg)
+    return replace(robot, legs=tuple(legs))
 
 
 def gains(candidate: Candidate) -> dict[str, float]:
     """Parameters of the controller of a candidate."""
-    return {n: value for n, value in {**PUBLISHED, **candidate}.items() if "." not in n}
+    return {name: value for name, value in candidate.items() if "." not in name}

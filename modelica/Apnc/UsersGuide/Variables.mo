@@ -40,8 +40,8 @@ class Variables "Variables; generated from the table of variables, do not edit"
 <tr><td>w11</td><td>1</td><td>1.4</td><td></td><td>0 ... 5</td><td>3</td><td>self-weight of both neurons, w11 = w22</td><td>paper</td></tr>
 <tr><td>w12_0</td><td>1</td><td>0.21</td><td></td><td>0 ... 2</td><td>3</td><td>cross-weight at MI = 0: w12 = w12_0 + MI, w21 = -w12</td><td>paper</td></tr>
 <tr><td>bias</td><td>1</td><td>0.0</td><td></td><td>-1 ... 1</td><td>1</td><td>bias added to both activations; the paper has none</td><td>paper</td></tr>
-<tr><td>o1_start</td><td>1</td><td>0.1</td><td>0.01</td><td>-1 ... 1</td><td>2</td><td>start output of neuron N1, the same for every leg</td><td>chosen: noise must not make phases near the origin; authors' code: 0.01</td></tr>
-<tr><td>o2_start</td><td>1</td><td>0.1</td><td>0.01</td><td>-1 ... 1</td><td>2</td><td>start output of neuron N2, the same for every leg</td><td>chosen: noise must not make phases near the origin; authors' code: 0.01</td></tr>
+<tr><td>o1_start</td><td>1</td><td>0.01</td><td>0.01</td><td>-1 ... 1</td><td>2</td><td>start output of neuron N1, the same for every leg</td><td>authors' code</td></tr>
+<tr><td>o2_start</td><td>1</td><td>0.01</td><td>0.01</td><td>-1 ... 1</td><td>2</td><td>start output of neuron N2, the same for every leg</td><td>authors' code</td></tr>
 <tr><td>a1</td><td>rad</td><td>0.14</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the hip</td><td>found by search for this robot, docs/decisions.md</td></tr>
 <tr><td>a2</td><td>rad</td><td>0.14</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions.md</td></tr>
 <tr><td>b1</td><td>rad</td><td>-0.26</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the hip</td><td>found by search for this robot, docs/decisions.md</td></tr>
@@ -56,7 +56,7 @@ class Variables "Variables; generated from the table of variables, do not edit"
 <tr><td>forward_model</td><td></td><td>ForwardModel.low_pass_hip</td><td></td><td></td><td>10, 11</td><td>what the expected load is made of</td><td>paper</td></tr>
 <tr><td>rbf_rate</td><td>1</td><td>0.02</td><td></td><td>0 ... 1</td><td>10</td><td>learning rate of the radial-basis forward model</td><td>chosen, docs/decisions.md</td></tr>
 <tr><td>phase_measure</td><td></td><td>PhaseMeasure.vector</td><td>PhaseMeasure.peak</td><td></td><td>12</td><td>how the relative phases are measured; the paper prints peak</td><td>authors' code</td></tr>
-<tr><td>phase_filter</td><td>1</td><td>0.02</td><td>0.05</td><td>0.0001 ... 1</td><td>12</td><td>new part per tick in the low-pass of the vector phase measure</td><td>chosen; at the authors' 0.05 phases sway by more than sigma at MI &lt; 0.08</td></tr>
+<tr><td>phase_filter</td><td>1</td><td>0.05</td><td>0.05</td><td>0.0001 ... 1</td><td>12</td><td>new part per tick in the low-pass of the vector phase measure</td><td>authors' code</td></tr>
 <tr><td>N</td><td></td><td>50</td><td></td><td>1 ... 256</td><td>14</td><td>ticks in the mean of the relative phases</td><td>paper</td></tr>
 <tr><td>sigma</td><td>rad</td><td>0.4</td><td></td><td>0 ... 10</td><td>16</td><td>threshold of d below which the phases count as stable</td><td>paper</td></tr>
 <tr><td>kappa_rule</td><td></td><td>KappaRule.armed</td><td>KappaRule.printed</td><td></td><td>16</td><td>when the couplings switch on; the paper prints Eq. 16</td><td>authors' code arms kappa; the hold is chosen</td></tr>
