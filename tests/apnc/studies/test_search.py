@@ -14,32 +14,52 @@ from records import TROT, synthetic_record
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
-from apnc.studies.search.__main__ import search
+from apnc.studies.search.__main__ import Spread, search
 from apnc.studies.search.costs import (
     BANDS,
-    COSTS,
     STEERING,
     WANTED_STEERING,
     WANTED_TURN,
     _StuckSensor,
     blocked_cost,
     damage_cost,
+    feet_cost,
     formation_cost,
+    names,
     payload_cost,
     ratio_cost,
     steering_cost,
     walk_cost,
 )
-from apnc.studies.search.knobs import KNOBS, PUBLISHED, built_robot, gains
+from apnc.studies.search.front import best_layers, candidates_of, unbeaten
+from apnc.studies.search.knobs import KNOBS, OWN, built_robot, gains, knobs_of, start
+from exudyn_models.robot import ROBOTS, load_robot
 
 Array = NDArray[np.float64]
 
+LILIBOT = load_robot("lilibot")
 
-def test_knobs_reach_their_ends_and_their_start() -> None:
-    for knob in KNOBS:
+
+SHIPPED = [name for name in KNOBS if (ROBOTS / f"{name}.toml").exists()]
+
+
+@pytest.mark.parametrize("robot", SHIPPED)
+def test_knobs_reach_their_ends_and_the_shipped_robot_lies_between(robot: str) -> None:
+    shipped = load_robot(robot)
+    for knob in KNOBS[robot]:
         assert knob.value(0.0) == pytest.approx(knob.low)
         assert knob.value(1.0) == pytest.approx(knob.high)
-        assert knob.value(knob.place(knob.start)) == pytest.approx(knob.start)
+        value = start(shipped, knob.name)
+        assert knob.low <= value <= knob.high
+        assert knob.value(knob.place(value)) == pytest.approx(value)
+
+
+@pytest.mark.parametrize("robot", SHIPPED)
+def test_the_shipped_numbers_make_the_shipped_robot(robot: str) -> None:
+    shipped = load_robot(robot)
+    numbers = {knob.name: start(shipped, knob.name) for knob in KNOBS[robot]}
+    assert built_robot(numbers, robot) == shipped
+    Experiment(robot=shipped, settings=gains(numbers))  # all are parameters
 
 
 def test_a_candidate_is_a_robot_and_gains() -> None:
@@ -47,8 +67,67 @@ def test_a_candidate_is_a_robot_and_gains() -> None:
     robot = built_robot(candidate)
     assert robot.trunk.body.com[0] == 0.01 and robot.trunk.body.com[2] == 0.003
     assert robot.servo.damping == 0.5
-    assert gains(candidate) == {**PUBLISHED, "a1": 0.2}
-    Experiment(settings=gains({knob.name: knob.start for knob in KNOBS}))  # all are parameters
+    assert gains(candidate) == {"a1": 0.2}
+
+
+def test_outer_and_inner_legs_move_on_both_sides() -> None:
+    robot = built_robot({"outer.y": 0.05, "inner.y": 0.11, "inner.z": 0.003}, "hexapod")
+    y = {leg.name: leg.mount[1] for leg in robot.legs}
+    assert y == {"RF": -0.05, "RM": -0.11, "RH": -0.05, "LF": 0.05, "LM": 0.11, "LH": 0.05}
+    assert {leg.name for leg in robot.legs if leg.mount[2] == 0.003} == {"RM", "LM"}
+
+
+def test_a_baseline_searches_its_own_number_and_if_asked_the_robot() -> None:
+    for method, knob in OWN.items():
+        assert knobs_of("lilibot", method) == (knob,)
+        found = {knob.name for knob in knobs_of("lilibot", method, own_robot=True)}
+        assert found == {knob.name} | {k.name for k in KNOBS["lilibot"]} - {
+            "B_f", "B_s", "turn_gain"
+        }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("robot", "method", "named"), [("cat", "apnc", "cat"), ("lilibot", "fuzzy", "fuzzy")]
+)
+def test_what_is_not_searched_is_named(robot: str, method: str, named: str) -> None:
+    with pytest.raises(ValueError, match=f"'{named}' is not one of"):
+        knobs_of(robot, method)
+
+
+def test_a_single_number_is_looked_at_all_over_its_range() -> None:
+    spread, told = Spread(10, seed=1), list[list[float]]()
+    for _ in range(5):
+        points = spread.ask()
+        assert [int(10 * point[0]) for point in points] == list(range(10))
+        costs = [abs(float(x[0]) - 0.7) for x in points]  # a valley at 0.7
+        costs[2] -= 0.3 * (len(told) == 0)  # and one lucky value elsewhere
+        told.append(costs)
+        spread.tell(points, costs)
+    assert spread.xfavorite[0] == pytest.approx(0.7, abs=0.06)
+
+
+def test_the_front_is_what_no_other_beats() -> None:
+    points = [(0.0, 3.0), (1.0, 1.0), (3.0, 0.0), (2.0, 2.0), (1.0, 1.0), (0.5, 3.0)]
+    assert unbeaten(points).tolist() == [True, True, True, False, True, False]
+    assert best_layers(points, 4).tolist() == [0, 1, 4, 2]
+    assert best_layers(points, 5).tolist() == [0, 1, 4, 2, 5]
+    assert best_layers(points, 99).tolist() == [0, 1, 4, 2, 5, 3]
+
+
+def test_candidates_come_from_logs_without_their_means(tmp_path: Path) -> None:
+    knobs = [knob.name for knob in knobs_of("lilibot", "apnc")]
+    numbers = ",".join("0.1" for _ in knobs)
+    lines = [
+        ",".join(["generation", "cost", "cost_mi_0.08", "cost_feet_0.08", "cost_ratio", *knobs]),
+        f"0,9,2.0,3.0,1.0,{numbers}",
+        f"0,9,3.0,3.0,2.0,{numbers}",
+        f"mean0,9,0.0,0.0,0.0,{numbers}",
+        f"1,9,3.0,1.0,1.0,{numbers}",
+    ]
+    log = tmp_path / "one" / "search.csv"
+    log.parent.mkdir()
+    log.write_text("\n".join(lines))
+    assert list(candidates_of([log], 2, "lilibot")) == ["one:2", "one:5"]
 
 
 def walk(phases: Sequence[float] = TROT, speed: float = 0.1) -> Record:
@@ -62,6 +141,7 @@ def on_feet(record: Record, feet: Array) -> Record:
 def test_an_exact_straight_trot_on_clean_feet_costs_nothing() -> None:
     assert formation_cost(walk()) == pytest.approx(0.0, abs=1e-6)
     assert walk_cost(walk()) == pytest.approx(0.0, abs=0.05)
+    assert feet_cost(walk()) == pytest.approx(0.0, abs=0.05)
 
 
 def test_another_gait_costs_its_distance() -> None:
@@ -73,9 +153,9 @@ def test_every_foot_that_hardly_lifts_costs() -> None:
     record = walk()
     flat = record.plant["foot_position"].copy()
     flat[:, 0, 2] = 0.0
-    assert walk_cost(on_feet(record, flat)) - walk_cost(record) == pytest.approx(0.35, abs=0.01)
+    assert feet_cost(on_feet(record, flat)) - feet_cost(record) == pytest.approx(0.35, abs=0.01)
     flat[..., 2] = 0.0
-    assert walk_cost(on_feet(record, flat)) - walk_cost(record) == pytest.approx(1.4, abs=0.01)
+    assert feet_cost(on_feet(record, flat)) - feet_cost(record) == pytest.approx(1.4, abs=0.01)
 
 
 def test_every_foot_that_slips_costs() -> None:
@@ -84,7 +164,7 @@ def test_every_foot_that_slips_costs() -> None:
     # in stance, 0.6 of a cycle of 1 / 1.4 s, a fifth of a stride of 0.1 / 1.4 m: twice what may be
     standing = record.plant["foot_force"][:, 3, 2] > 0.0
     feet[:, 3, 1] += np.cumsum(standing) * (0.2 * 0.1 / 1.4) / (0.6 / 1.4 * 60.0)
-    found = walk_cost(on_feet(record, feet)) - walk_cost(record)
+    found = feet_cost(on_feet(record, feet)) - feet_cost(record)
     assert found == pytest.approx(0.35 * (0.2 / 0.1 - 1.0), abs=0.08)
 
 
@@ -100,7 +180,7 @@ def test_a_curve_costs_by_its_rate_to_either_side() -> None:
         rpy = record.plant["rpy"].copy()
         rpy[:, 2] = sign * 3.0 * WANTED_TURN * record.time
         turned = replace(record, plant={**record.plant, "rpy": rpy})
-        added = walk_cost(turned) - walk_cost(record)
+        added = feet_cost(turned) - feet_cost(record)
         assert added == pytest.approx(0.35 * np.log(4.0), abs=0.02)
 
 
@@ -111,7 +191,8 @@ def test_less_than_twice_the_speed_costs() -> None:
 
 
 def test_a_cost_per_band_and_name() -> None:
-    assert len(COSTS) == len(BANDS) + 7 == len(set(COSTS))
+    for n_legs, bands in BANDS.items():
+        assert len(names(n_legs)) == 2 * len(bands) + 7 == len(set(names(n_legs)))
 
 
 def test_stopped_oscillators_cost_half_each() -> None:
@@ -152,8 +233,10 @@ def test_the_stuck_sensor_sticks_after_its_ticks() -> None:
 
 
 def test_a_stuck_load_stops_an_oscillator_that_learns_and_not_one_that_does_not() -> None:
-    assert blocked_cost({}) == 0.0
-    assert blocked_cost({"B_f": 0.0, "B_s": 0.0}) == pytest.approx(0.2 + 0.5 * 2.0, abs=0.2)
+    assert blocked_cost(LILIBOT, {}) == 0.0
+    assert blocked_cost(LILIBOT, {"B_f": 0.0, "B_s": 0.0}) == pytest.approx(
+        0.2 + 0.5 * 2.0, abs=0.2
+    )
 
 
 def test_without_cma_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -164,9 +247,9 @@ def test_without_cma_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.Monk
 
 def test_workers_make_the_same_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("cma", reason="the extra search is not installed")
-    n = len(COSTS)
+    n = len(names(4))
 
-    def made_up(candidate: dict[str, float], seed: int) -> tuple[float, ...]:
+    def made_up(candidate: dict[str, float], seed: int, **more: object) -> tuple[float, ...]:
         return (abs(sum(candidate.values())) + seed,) * n
 
     monkeypatch.setattr("apnc.studies.search.__main__._costs", made_up)

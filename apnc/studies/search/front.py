@@ -1,0 +1,146 @@
+"""``python -m apnc.studies.search.front LOG ... --output front.csv``: where the aims collide.
+
+The candidates of some searches that no other beats in formation and in feet at once are walked
+again, all with the same seeds, and measured in the figures of the study ``gait``. Those that none
+beats in these are the front.
+"""
+
+from __future__ import annotations
+
+import csv
+import functools
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Final
+
+import numpy as np
+import typer
+from numpy.typing import ArrayLike, NDArray
+
+from apnc.loop.experiment import Experiment
+from apnc.loop.simulate import simulate
+from apnc.studies import gait
+from apnc.studies.search.knobs import Candidate, built_robot, gains, knobs_of, start
+from apnc.studies.study import COURSE_MI, WALK_MI
+from apnc.studies.workers import pool
+from apnc.summary import summarise
+from exudyn_models.robot import load_robot
+
+MI_VALUES: Final = (0.06, WALK_MI, 0.10, 0.12, COURSE_MI, 0.20, 0.28, 0.34, 0.40)
+WALK_S: Final = 25.0
+
+SHIPPED: Final = "shipped"
+
+BIGGER_IS_BETTER: Final = ("strict", "lift_mm")
+"""The figures that collide; what the front is of."""
+
+
+def best_layers(points: ArrayLike, count: int) -> NDArray[np.intp]:
+    """The first ``count`` points when the front is taken away again and again.
+
+    Args:
+        points: smaller is better in each, shape (n, k).
+        count: how many; all if there are fewer.
+
+    Returns:
+        Their indices; within a layer by the first figure.
+    """
+    values = np.asarray(points, dtype=np.float64)
+    left, found = np.arange(len(values)), np.empty(0, dtype=np.intp)
+    while len(left) and len(found) < count:
+        layer = left[unbeaten(values[left])]
+        found = np.concatenate([found, layer[np.argsort(values[layer, 0], kind="stable")]])
+        left = np.setdiff1d(left, layer)
+    return found[:count]
+
+
+def unbeaten(points: ArrayLike) -> NDArray[np.bool_]:
+    """Points to which no other is at least equal in all figures and better in one; shape (n,)."""
+    p = np.asarray(points, dtype=np.float64)
+    no_worse = (p[:, None] <= p).all(axis=2)
+    better = (p[:, None] < p).any(axis=2)
+    return np.asarray(~(no_worse & better).any(axis=0))
+
+
+def candidates_of(logs: Sequence[Path], count: int, robot: str) -> dict[str, Candidate]:
+    """The candidates of some logs that are best in formation and in feet, by log and line."""
+    names = [knob.name for knob in knobs_of(robot, "apnc")]
+    tried: dict[str, Candidate] = {}
+    points = []
+    for log in logs:
+        with log.open(newline="", encoding="utf-8") as file:
+            for line, row in enumerate(csv.DictReader(file), start=2):
+                if row["generation"].startswith("mean"):
+                    continue
+                costs = {name: float(v) for name, v in row.items() if name.startswith("cost_")}
+                feet = sum(v for name, v in costs.items() if "feet" in name or "ratio" in name)
+                points.append((sum(costs.values()) - feet, feet))
+                tried[f"{log.parent.name}:{line}"] = {name: float(row[name]) for name in names}
+    labels = list(tried)
+    return {labels[n]: tried[labels[n]] for n in best_layers(points, count)}
+
+
+def measured(candidate: Candidate, robot: str, seeds: int) -> dict[str, float]:
+    """Figures of a candidate over MI, without and, for four legs at MI 0.08, with payload."""
+    body, settings = built_robot(candidate, robot), gains(candidate)
+
+    def walk(mi: float, seed: int, **more: Any) -> dict[str, Any]:
+        what = {"robot": body, "settings": settings, "duration": WALK_S, **more}
+        record = simulate(Experiment(mi=mi, seed=seed, **what))
+        return summarise(record).to_dict() | gait.measure(record)
+
+    rows = {mi: [walk(mi, seed) for seed in range(seeds)] for mi in MI_VALUES}
+    loaded = [walk(WALK_MI, seed, conditions="C4") for seed in range(2 * seeds)]
+    low = [_median(own, gait.LIFT, 0.0) for own in rows.values()]
+    slip = [_median(own, gait.SLIP, 1.0) for own in rows.values()]
+    turn = [_median(own, "turned_deg", 360.0, abs) * 45.0 / WALK_S for own in rows.values()]
+    strict = [row["converged"] is True for own in rows.values() for row in own]
+    speed = {mi: _median(rows[mi], "late_speed_m_per_s", 0.0) for mi in (COURSE_MI, MI_VALUES[-1])}
+    return {
+        "strict": float(np.mean(strict)),
+        "payload": float(np.mean([row["converged"] is True for row in loaded])),
+        "lift_mm": float(np.mean(low)),
+        "least_lift_mm": min(low),
+        "lifts": sum(value >= 6.0 for value in low),
+        "holds": sum(value <= 0.12 for value in slip),
+        "turn_deg": float(np.median(turn)),
+        "ratio": speed[MI_VALUES[-1]] / speed[COURSE_MI] if speed[COURSE_MI] > 0.0 else 0.0,
+    }
+
+
+def _median(
+    rows: Sequence[Mapping[str, Any]],
+    name: str,
+    missing: float,
+    of: Callable[[float], float] = lambda value: value,
+) -> float:
+    return float(np.median([missing if row[name] is None else of(row[name]) for row in rows]))
+
+
+def front(
+    logs: Annotated[list[Path], typer.Argument(help="search.csv of searches, for one robot.")],
+    output: Annotated[Path, typer.Option(help="File of figures and numbers.")] = Path("front.csv"),
+    robot: Annotated[str, typer.Option(help="Name of the robot.")] = "lilibot",
+    count: Annotated[int, typer.Option(help="How many candidates are walked again.")] = 40,
+    seeds: Annotated[int, typer.Option(help="Of every walk.")] = 3,
+    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+) -> None:
+    """Walk the best candidates again and write their figures, the front marked."""
+    tried = candidates_of(logs, count, robot)
+    shipped = load_robot(robot)
+    names = [knob.name for knob in knobs_of(robot, "apnc")]
+    tried = {SHIPPED: {name: start(shipped, name) for name in names}, **tried}
+    judge = functools.partial(measured, robot=robot, seeds=seeds)
+    with pool(workers, None) as executor:
+        found = list((executor.map if executor else map)(judge, tried.values()))
+    best = unbeaten([[-one[name] for name in BIGGER_IS_BETTER] for one in found])
+    with output.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["candidate", "front", *found[0], *names])
+        for (label, numbers), one, on_it in zip(tried.items(), found, best, strict=True):
+            values = [f"{value:.5g}" for value in (*one.values(), *numbers.values())]
+            table.writerow([label, int(on_it), *values])
+
+
+if __name__ == "__main__":
+    typer.run(front)
