@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Final
+from typing import Any, Final
+
+import numpy as np
 
 from apnc.loop.experiment import Experiment, Setting
 from apnc.loop.record import Record
 from apnc.studies.rows import Row, matching, successes, values
+from apnc.studies.states.measure import STOPPED
 from apnc.studies.states.measure import measure as judged
 from apnc.studies.states.timeline import TIMELINE
-from apnc.studies.study import Study
+from apnc.studies.study import COURSE_MI, WALK_MI, Study
 from apnc.studies.table import markdown, middle
 from apnc_core.schema import Causality
 from apnc_core.variables import rows as variables
@@ -40,8 +43,17 @@ REMOVED: Final[Mapping[str, Mapping[str, Setting]]] = {
 }
 """Parameters as printed, by the departure that is taken back."""
 
-WALKS: Final = {"MI 0.08": 0.08, "MI 0.15": 0.15, "MI 0.28": 0.28}
+WALKS: Final[Mapping[str, Mapping[str, Any]]] = {
+    "MI 0.08": {"mi": 0.08},
+    "MI 0.15": {"mi": 0.15},
+    "MI 0.28": {"mi": 0.28},
+    "C4": {"mi": WALK_MI, "conditions": "C4"},
+    "C3": {"mi": COURSE_MI, "conditions": "C3"},
+}
+"""Walks by name: what of the experiment is asked for."""
+
 STATES: Final = "S1 to S3"
+STOP_MOVES: Final = "moves_at_mi_zero"
 WALK_S: Final = 25.0
 """Length of the walks [s]."""
 
@@ -50,13 +62,23 @@ def experiment(method: str, seed: int, removed: str, task: str) -> Experiment:
     """A walk, or the run through the states S1 to S3, without one departure."""
     if task == STATES:
         return TIMELINE.experiment(method, seed, settings=REMOVED[removed])
-    walk = {"method": method, "seed": seed, "settings": REMOVED[removed]}
-    return Experiment(mi=WALKS[task], duration=WALK_S, **walk)  # type: ignore[arg-type]  # by name
+    walk: dict[str, Any] = {"method": method, "seed": seed, "settings": REMOVED[removed]}
+    return Experiment(duration=WALK_S, **walk, **WALKS[task])
 
 
 def measure(record: Record) -> Row:
-    """What became of the gait in S1 to S3, for the run through them."""
-    return judged(record) if isinstance(record.experiment.mi, tuple) else {}
+    """What became of the gait in S1 to S3, for the run through them.
+
+    Returns:
+        The figures of the states, and ``moves_at_mi_zero``: whether an oscillator moves in the last
+        second of MI = 0.
+    """
+    if not isinstance(record.experiment.mi, tuple):
+        return {}
+    time, o1 = record.time, record.controller["o1"]
+    late = o1[(time >= TIMELINE.restarted - 1.0) & (time < TIMELINE.restarted)]
+    moves = bool((np.ptp(late, axis=0) >= STOPPED).any()) if len(late) else None
+    return judged(record) | {STOP_MOVES: moves}
 
 
 def table(rows: Sequence[Row]) -> str:
@@ -79,6 +101,8 @@ def _line(removed: str, rows: Sequence[Row]) -> dict[str, str]:
     runs = matching(rows, task=STATES)
     for state in ("S1", "S2", "S3"):
         entries[state] = f"{sum(bool(run.get(f'state_{state}')) for run in runs)}/{len(runs)}"
+    stops = [run.get(STOP_MOVES) is False for run in runs]
+    entries["stops at MI = 0"] = f"{sum(stops)}/{len(stops)}"
     return entries
 
 
