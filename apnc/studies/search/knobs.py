@@ -76,6 +76,7 @@ _MANY_LEGS: Final = (
 
 KNOBS: Final[Mapping[str, tuple[Knob, ...]]] = {
     "lilibot": (
+        Knob("a2", 0.12, 0.20),
         *_POSE,
         Knob("trunk.com_x", 0.0, 0.06),
         Knob("trunk.com_z", -0.016, 0.02),
