@@ -45,7 +45,7 @@ _BODY: Final = (
     Knob("sensor.delay", 0.005, 0.07),
 )
 
-_POSE: Final = (Knob("b1", -0.5, 0.0), Knob("b2", -0.4, 0.2))
+_POSE: Final = (Knob("b1", -0.6, 0.0), Knob("b2", -0.4, 0.4))
 
 _LEARNING: Final = (
     Knob("B_f", 0.02, 0.5, log=True),
