@@ -186,7 +186,7 @@ def test_the_path_has_equal_scales_and_a_colour_per_section() -> None:
 def test_a_run_that_fell_on_its_course_is_shown_as_far_as_it_went() -> None:
     record = synthetic_record(24.0)
     turns = replace(record, experiment=experiment("turns"))
-    speeds = replace(record, experiment=experiment("apnc", 0, "speeds"))
+    speeds = replace(record, experiment=experiment("speeds"))
     assert turns_over_time(turns).layout["xaxis"]["range"] == [0.0, 60.0]
     assert speeds_over_time(speeds).layout["xaxis"]["range"] == [0.0, 60.0]
     assert [len(numbers(trace["x"])) for trace in path(turns).data[:4]] == [
