@@ -26,6 +26,7 @@ from apnc.metrics.motion import mean_speed as mean_speed
 from apnc.metrics.motion import path_length as path_length
 from apnc.metrics.motion import smoothed_speed as smoothed_speed
 from apnc.metrics.motion import turned as turned
+from apnc.metrics.phases import coherence as coherence
 from apnc.metrics.phases import cpg_phase as cpg_phase
 from apnc.metrics.phases import final_phases as final_phases
 from apnc.metrics.phases import phase_difference_authors as phase_difference_authors

@@ -16,13 +16,16 @@ STRICT_HOLD: Final = 1.0  # lasted at the end of the run [s]: about a stride at 
 
 
 def touch_moment(vertical_force: Array, weight: float) -> int | None:
-    """Index of the first sample with at least two feet above a fifth of the weight, else None.
+    """Index of the first sample with at least two feet above four fifths of an even share.
+
+    With four legs that is a fifth of the weight. None if there is none.
 
     Args:
         vertical_force: of the ground on every foot [N], shape (T, n).
         weight: of the robot [N].
     """
-    both = np.flatnonzero((vertical_force > weight / 5).sum(axis=1) >= 2)
+    share = weight / (1.25 * vertical_force.shape[1])
+    both = np.flatnonzero((vertical_force > share).sum(axis=1) >= 2)
     return int(both[0]) if len(both) else None
 
 
@@ -61,8 +64,8 @@ def convergence_time_authors(
     """Time from the touch moment to the first sight of the gait [s], the authors' criterion.
 
     The distance of the unsigned phases to (pi, pi, 0), smoothed, falls below 2.8 rad. In phase it
-    is 4.44 rad. Source: the authors' evaluation code. Pitfall: 2.8 rad is loose, and a first
-    crossing need not last; compare ``convergence_time``.
+    is 4.44 rad, with six and eight legs 5.44 and 6.28. Source: the authors' evaluation code.
+    Pitfall: 2.8 rad is loose, and a first crossing need not last; compare ``convergence_time``.
     """
     if touch is None:
         return None

@@ -43,16 +43,31 @@ def relative_phases(o1: Array, o2: Array) -> Array:
     return _angle(_relative_phasors(o1, o2))
 
 
-def final_phases(o1: Array, o2: Array, sample_time: float) -> Array:
-    """Mean of the relative phases over the last second, in [-pi/2, 3pi/2) [rad], shape (n - 1,).
+def final_phases(o1: Array, o2: Array, sample_time: float, span: float = 1.0) -> Array:
+    """Mean of the relative phases over the last ``span`` [s], in [-pi/2, 3pi/2) [rad], (n - 1,).
 
     NaN where undefined. The mean is that of the phasors: one of angles near the cut is meaningless.
     """
     phasors = _relative_phasors(o1, o2)
     if len(phasors) == 0:
         return np.full(phasors.shape[1], np.nan)
-    samples = max(1, round(1.0 / sample_time))
-    return wrap_for_display(_angle(phasors[-samples:].mean(axis=0)))
+    return wrap_for_display(_angle(phasors[-_samples(sample_time, span) :].mean(axis=0)))
+
+
+def coherence(o1: Array, o2: Array, sample_time: float, span: float) -> float | None:
+    """How steady the relative phases are in the last ``span`` [s]: 1 steady, 0 on the move [1].
+
+    Length of the mean of exp(i phi_1k), smoothed phases, of the leg that has the least; None
+    without samples. A phase that drifts evenly through x rad has 2/x sin(x/2).
+    """
+    phases = relative_phases(o1, o2)[-_samples(sample_time, span) :]
+    if len(phases) == 0:
+        return None
+    return float(np.abs(np.nan_to_num(np.exp(1j * phases)).mean(axis=0)).min())
+
+
+def _samples(sample_time: float, span: float) -> int:
+    return max(1, round(span / sample_time))
 
 
 def phase_difference_authors(o1: Array, o2: Array) -> Array:

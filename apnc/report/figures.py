@@ -52,12 +52,14 @@ def phases(run: Run) -> Figure:
     """Relative phases of the oscillators, and the target gait."""
     c, legs, target = run.record.controller, run.record.legs, run.summary.phi_target
     smoothed = metrics.relative_phases(c["o1"], c["o2"])
-    own = {"width": 1, "dash": "dot", "visible": "legendonly"}
+    own = {"width": 1, "dash": "dot", "visible": "legendonly", "legendgroup": "fmu"}
     traces = []
     for k, leg in enumerate(legs[1:]):
+        # One entry for all: with six legs and more the legend would cover what is above it.
+        one, more = own | {"showlegend": k == 0}, " …" if k == 0 else ""
         for name, phi, style in (
             (f"φ1{k + 2} ({legs[0]}–{leg})", smoothed[:, k], {"width": 2.4}),
-            (f"φ1{k + 2} in the FMU", c["phi"][:, k], own),
+            (f"φ1{k + 2}{more} in the FMU", c["phi"][:, k], one),
         ):
             traces.append(line(_uncut(run.samples.of(phi)), name, run.colours[leg], **style))
     levels = sorted({round(float(metrics.wrap_for_display(phi)), 6) for phi in target or ()})
@@ -66,7 +68,7 @@ def phases(run: Run) -> Figure:
         "Relative phases",
         f"Smoothed over 1.5 s; positive where the leg is ahead of {legs[0]}. Dashed: target gait "
         f"({metrics.gait_name(len(legs))}) with the ±{metrics.STRICT_TOLERANCE} rad of the strict "
-        "criterion. Dotted, by a click on the legend: the phase that the FMU estimates.",
+        "criterion. Dotted, by a click on the legend: the phases that the FMU estimates.",
         traces,
         theme.axis("relative phase [rad]", range=[-np.pi / 2, 3 * np.pi / 2], **PI_TICKS),
         height=330,

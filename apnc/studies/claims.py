@@ -6,7 +6,16 @@ from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
 from apnc.studies.contenders import contender
-from apnc.studies.rows import AUTHORS, STRICT, Row, is_number, matching, successes, values
+from apnc.studies.rows import (
+    AUTHORS,
+    STRICT,
+    Row,
+    gait_in,
+    is_number,
+    matching,
+    successes,
+    values,
+)
 from apnc.studies.statistics import (
     compare,
     median,
@@ -39,7 +48,10 @@ Pairs = Sequence[tuple[str, str]]
 
 
 class Claim(NamedTuple):
-    """A claim of the paper: where, what it says, its rule, the methods and seeds that it needs."""
+    """A claim of the paper: where, what it says, its rule, the methods and seeds that it needs.
+
+    ``{gait}`` in its text stands for the name of the gait that is expected of the robot.
+    """
 
     place: str
     text: str
@@ -176,7 +188,8 @@ def time_trend(axis: str, sign: int, labels: Sequence[str]) -> Rule:
 
 def findings(rows: Sequence[Row], claims: Sequence[Claim]) -> list[tuple[Claim, Finding]]:
     """Every claim and what it came to on these rows."""
-    return [(claim, _finding(rows, claim)) for claim in claims]
+    gait = gait_in(rows)
+    return [(c._replace(text=c.text.format(gait=gait)), _finding(rows, c)) for c in claims]
 
 
 def _finding(rows: Sequence[Row], claim: Claim) -> Finding:

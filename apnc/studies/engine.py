@@ -15,7 +15,7 @@ from apnc.loop.simulate import simulate
 from apnc.report.folder import write_together
 from apnc.studies.registry import ALL, METHODS, ROBOT, STUDIES, load, names_of
 from apnc.studies.report import files_of
-from apnc.studies.rows import Row
+from apnc.studies.rows import PHASE, Row
 from apnc.studies.store import Store, place_of
 from apnc.studies.study import Chosen, Trial
 from apnc.studies.workers import pool, rows_of
@@ -155,7 +155,7 @@ def measured(study: str, record: Record) -> Row:
     """Summary and the study's own figures of a record, how it ended, and what broke down."""
     found = summarise(record).to_dict()
     ended = {"ended_at_s": found.pop("duration_s"), "end": found.pop("end")}
-    phases = {f"phi_final_1{k}": phi for k, phi in enumerate(found.pop("phi_final"), start=2)}
+    phases = {f"{PHASE}{k}": phi for k, phi in enumerate(found.pop("phi_final"), start=2)}
     single = {k: v for k, v in found.items() if k not in _LEFT_OUT and not isinstance(v, dict)}
     own = {name: _finite(value) for name, value in load(study).measure(record).items()}
     return single | phases | own | ended | {"error": record.message}

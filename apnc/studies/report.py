@@ -80,7 +80,8 @@ def part_of(study: Study, grid: Sequence[Trial], rows: Sequence[Row], scenes: bo
         for row in rows
         if row["end"] != "complete"
     ]
-    figures = [*study.figures(rows), *(study.scenes() if scenes else [])]
+    shown = study.scenes(grid[0].experiment.robot) if scenes else []
+    figures = [*study.figures(rows), *shown]
     return Part(study, _asked(study, grid, rows), findings(rows, study.claims), failed, figures)
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any, Final
 
+from apnc import metrics
 from apnc.studies.contenders import CONTENDERS, contender
 
 Row = dict[str, Any]
@@ -13,6 +14,8 @@ Row = dict[str, Any]
 STRICT: Final = "convergence_time_s"
 AUTHORS: Final = "convergence_time_authors_s"
 SPEED: Final = "path_speed_m_per_s"
+PHASE: Final = "phi_final_1"
+"""Begin of the columns of the phases at the end; the leg's number follows."""
 
 
 def is_number(value: Any) -> bool:
@@ -33,6 +36,17 @@ def values(rows: Sequence[Row], column: str, **where: Any) -> list[float]:
 def successes(rows: Sequence[Row], column: str = STRICT, **where: Any) -> list[bool]:
     """Whether the gait formed by a criterion and the robot stands, for every row that matches."""
     return [is_number(r.get(column)) and not r.get("fell") for r in matching(rows, **where)]
+
+
+def phases_in(rows: Sequence[Row]) -> list[str]:
+    """Columns of the relative phases at the end, as many as any row has."""
+    found = {name for row in rows for name in row if name.startswith(PHASE)}
+    return sorted(found, key=lambda name: int(name.removeprefix(PHASE)))
+
+
+def gait_in(rows: Sequence[Row]) -> str:
+    """Name of the gait expected of the robot that walked."""
+    return metrics.gait_name(len(phases_in(rows)) + 1)
 
 
 def methods_in(rows: Sequence[Row]) -> list[str]:

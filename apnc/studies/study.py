@@ -17,10 +17,13 @@ from apnc.studies.claims import Claim
 from apnc.studies.contenders import ALL, contender
 from apnc.studies.registry import METHODS, ROBOT, STUDIES, Entry
 from apnc.studies.rows import Row
+from exudyn_models.robot import RobotDescription
 
 Value = str | float | int
 Chosen = Mapping[str, Sequence[Value]]
 """Values along axes of a grid, by name of the axis."""
+
+Robot = str | RobotDescription
 
 Seeds = Callable[[Mapping[str, Value], int], int]
 
@@ -66,8 +69,8 @@ class Study:
 
     Args:
         name: as in the registry.
-        experiment: makes one of the FMU's method, the seed and a value per axis, given by name;
-            what it sets goes before the settings of the contender.
+        experiment: makes one of the FMU's method, the seed, a value per axis and the robot if one
+            is asked for, given by name; what it sets goes before the settings of the contender.
         axes: values along each axis of the grid, by name.
         methods: labels of the contenders that are run.
         seeds: how many of the seeds asked for a cell (its label and values) gets, 0 for none; a
@@ -75,7 +78,7 @@ class Study:
         measure: figures of a record that its summary does not have, ``None`` where undefined.
         claims: what the paper says of it.
         figures: made of the rows, of which there is at least one.
-        scenes: figures of single runs, which are run for them when the rows are there.
+        scenes: figures of single runs of a robot, run for them when the rows are there.
         table: the rows as a Markdown table.
     """
 
@@ -87,7 +90,7 @@ class Study:
     measure: Callable[[Record], Row] = lambda record: {}
     claims: tuple[Claim, ...] = ()
     figures: Callable[[Sequence[Row]], list[Figure]] = lambda rows: []
-    scenes: Callable[[], list[Figure]] = lambda: []
+    scenes: Callable[[Robot], list[Figure]] = lambda robot: []
     table: Callable[[Sequence[Row]], str] | None = None
 
     @property
@@ -142,12 +145,12 @@ class Study:
 
     def _trial(self, cell: dict[str, Value], duration: float | None, robot: str | None) -> Trial:
         used = contender(str(cell["method"]))
-        experiment = self.experiment(**cell | {"method": used.method})
+        own = {} if robot is None else {"robot": robot}
+        experiment = self.experiment(**cell | {"method": used.method} | own)
         settings = {**used.settings_in(self.name), **experiment.settings}
         length = experiment.duration if duration is None else duration
         experiment = replace(experiment, settings=settings, duration=length)
-        if robot is not None:
-            experiment, cell = replace(experiment, robot=robot), {**cell, "robot": robot}
         mi = experiment.mi if isinstance(experiment.mi, int | float) else steps_text(experiment.mi)
         first = {"method": cell["method"], "mi": mi, "seed": cell["seed"]}
-        return Trial(self.name, {**first, "duration": experiment.duration, **cell}, experiment)
+        whole = {**first, "duration": experiment.duration, **cell, **own}
+        return Trial(self.name, whole, experiment)

@@ -43,7 +43,7 @@ def test_default_walk_forms_a_trot_and_keeps_it(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(2))
 def test_the_hexapod_forms_a_tripod_and_keeps_it(seed: int) -> None:
     record, summary = walked(robot="hexapod", seed=seed)
-    assert summary.converged and not summary.fell
+    assert summary.converged and not summary.fell and summary.gait == "tripod"
     assert summary.convergence_time_s is not None and summary.convergence_time_s < 10.0
     assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.03
     c = record.controller

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import product
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from apnc.loop.experiment import Experiment
 from apnc.report.figure import Figure
@@ -57,9 +57,9 @@ class Compared(NamedTuple):
         return f"{words}: {p_text(self.test.p)}, r = {self.test.effect:.2f}, n = {self.n}"
 
 
-def experiment(method: str, seed: int, condition: str) -> Experiment:
+def experiment(condition: str, **fields: Any) -> Experiment:
     """A walk of a robot in a condition of the paper."""
-    return Experiment(method=method, seed=seed, conditions=condition, mi=WALK_MI, duration=WALK_S)
+    return Experiment(conditions=condition, mi=WALK_MI, duration=WALK_S, **fields)
 
 
 def comparisons(rows: Sequence[Row]) -> list[Compared]:

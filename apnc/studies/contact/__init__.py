@@ -24,7 +24,7 @@ from apnc.studies.contact.measure import (
 )
 from apnc.studies.plots import COLOURS
 from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
-from apnc.studies.study import WALK_MI, Study
+from apnc.studies.study import WALK_MI, Robot, Study
 from apnc.studies.table import markdown
 
 MAX_FORCE_ERROR: Final = 0.05
@@ -89,8 +89,8 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
     return [Figure("contact-error", "Error over the step", note, data, layout, over_time=False)]
 
 
-def scenes() -> list[Figure]:
-    """Force under a foot at its first touch-down, by law of damping and step."""
+def scenes(_: Robot) -> list[Figure]:
+    """Force under a foot of Lilibot at its first touch-down, by law of damping and step."""
     data = []
     laws = ((SUDDEN, STEPS[-1]), (GRADUAL, STEPS[-1]), (GRADUAL, 32), (GRADUAL, 16))
     for (depth, steps), colour in zip(laws, COLOURS, strict=False):

@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
 from apnc.report.figure import Figure
 from apnc.studies.engines import figures
-from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching, successes, values
+from apnc.studies.rows import (
+    STRICT,
+    Row,
+    cells_in,
+    gait_in,
+    matching,
+    phases_in,
+    successes,
+    values,
+)
 from apnc.studies.statistics import rate
-from apnc.studies.study import WALK_S, Study
+from apnc.studies.study import WALK_S, Robot, Study
 from apnc.studies.table import markdown, middle
 from exudyn_models.physics.options import COMPILED
 
@@ -28,30 +37,26 @@ SHOWN_MI: Final = 0.15
 """MI of the walk that is drawn over time."""
 
 
-def experiment(method: str, seed: int, engine: str, mi: float) -> Experiment:
+def experiment(engine: str, **fields: Any) -> Experiment:
     """A walk in an engine."""
     name, contact = ENGINES[engine]
-    return Experiment(
-        method=method, seed=seed, mi=mi, duration=WALK_S, engine=name, contact=contact
-    )
+    return Experiment(duration=WALK_S, engine=name, contact=contact, **fields)
 
 
 def table(rows: Sequence[Row]) -> str:
     """A line per engine and MI."""
     cells = [(mi, engine) for mi in cells_in(rows, "mi") for engine in ENGINES]
     groups = [(*cell, matching(rows, mi=cell[0], engine=cell[1])) for cell in cells]
-    return markdown(_line(*group) for group in groups if group[2])
+    gait = gait_in(rows)
+    return markdown(_line(gait, *group) for group in groups if group[2])
 
 
-def _line(mi: float, engine: str, rows: list[Row]) -> dict[str, str]:
-    phases = [
-        middle([row[name] for row in rows if is_number(row.get(name))], 2)
-        for name in ("phi_final_12", "phi_final_13", "phi_final_14")
-    ]
+def _line(gait: str, mi: float, engine: str, rows: list[Row]) -> dict[str, str]:
+    phases = [middle(values(rows, name), 2) for name in phases_in(rows)]
     return {
         "MI": f"{mi:.2f}",
         "engine": figures.STYLES[engine][0],
-        "trot kept, strict (95 % interval)": str(rate(successes(rows))),
+        f"{gait} kept, strict (95 % interval)": str(rate(successes(rows))),
         "strict time [s]": middle(values(rows, STRICT), 1),
         "speed [m/s]": middle(values(rows, "late_speed_m_per_s"), 3),
         "stride [Hz]": middle(values(rows, "stride_frequency_hz"), 2),
@@ -61,9 +66,10 @@ def _line(mi: float, engine: str, rows: list[Row]) -> dict[str, str]:
     }
 
 
-def scenes() -> list[Figure]:
-    """The replay over time, and one walk in each engine."""
-    records = {name: simulate(experiment("apnc", 1, name, SHOWN_MI)) for name in ENGINES}
+def scenes(robot: Robot) -> list[Figure]:
+    """One walk of the robot in each engine, and Lilibot's replay over time."""
+    runs = {name: experiment(name, robot=robot, seed=1, mi=SHOWN_MI) for name in ENGINES}
+    records = {name: simulate(run) for name, run in runs.items()}
     return [figures.walks(records), figures.replay()]
 
 

@@ -75,7 +75,7 @@ def replay() -> Figure:
         xaxis=theme.axis("time [s]"),
         yaxis=theme.axis("distance [m]", type="log", exponentformat="power"),
     )
-    note = "Trot on fixed phases, the same commands in both engines."
+    note = "Lilibot's trot on fixed phases, the same commands in both engines."
     data = [line(found, "measured", theme.BLUE) | x]
     return Figure("engines-replay", "From one engine to the other", note, data, layout)
 
@@ -92,7 +92,8 @@ def walks(records: Mapping[str, Record]) -> Figure:
             group = {"legendgroup": engine, "showlegend": k == 0, "x": float32(record.time[shown])}
             data.append(line(phases[:, k], name, colour, width=1.2) | group)
     some = next(iter(records.values())).experiment
-    axis = theme.axis("φ12, φ13, φ14 [rad]", **HALF_TURNS)
+    names = ", ".join(f"φ1{leg}" for leg in range(2, record.n_legs + 1))
+    axis = theme.axis(f"{names} [rad]", **HALF_TURNS)
     layout = theme.layout(320, xaxis=theme.axis("time [s]"), yaxis=axis)
     title, note = "The gait forms", f"MI {some.mi:g}, seed {some.seed}."
     return Figure("engines-walks", title, note, data, layout, over_time=False)

@@ -13,7 +13,7 @@ from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.studies.claims import Claim, Finding, Rule, verdict
 from apnc.studies.plots import over_axis
-from apnc.studies.rows import STRICT, Row, cells_in, matching, successes, values
+from apnc.studies.rows import STRICT, Row, cells_in, gait_in, matching, successes, values
 from apnc.studies.statistics import rate
 from apnc.studies.study import WALK_S, Study
 from apnc.studies.table import markdown, middle
@@ -68,7 +68,7 @@ def _known(figures: Sequence[float | None]) -> list[float]:
 
 
 def forms(low: float, high: float, share: float) -> Rule:
-    """The strict trot forms in a share of the runs at every MI from low to high.
+    """The gait forms, by the strict criterion, in a share of the runs at every MI from low to high.
 
     'Partly' if it does at most of them.
     """
@@ -159,15 +159,16 @@ def _by_mi(rows: Sequence[Row], column: str) -> dict[float, list[float]]:
 
 def table(rows: Sequence[Row]) -> str:
     """A line per MI; a trial that ended with an error counts as a failure."""
-    return markdown(_line(mi, matching(rows, mi=mi)) for mi in cells_in(rows, "mi"))
+    gait = gait_in(rows)
+    return markdown(_line(gait, mi, matching(rows, mi=mi)) for mi in cells_in(rows, "mi"))
 
 
-def _line(mi: float, rows: list[Row]) -> dict[str, str]:
+def _line(gait: str, mi: float, rows: list[Row]) -> dict[str, str]:
     turns = [abs(value) for value in values(rows, TURNED)]
     slips = [100.0 * value for value in values(rows, SLIP)]
     return {
         "MI": f"{mi:.2f}",
-        "strict trot": f"{sum(successes(rows))}/{len(rows)}",
+        f"strict {gait}": f"{sum(successes(rows))}/{len(rows)}",
         "after [s], median (range)": middle(values(rows, STRICT), 1),
         "lowest lift of a foot [mm]": middle(values(rows, LIFT), 1),
         "largest slip of a foot [% of the stride]": middle(slips, 0),
@@ -181,9 +182,9 @@ def _line(mi: float, rows: list[Row]) -> dict[str, str]:
 
 
 AIMS: Final = (
-    Claim("aim", "strict trot in every run at every MI 0.08 ... 0.28", forms(*CORE, 1.0)),
+    Claim("aim", "strict {gait} in every run at every MI 0.08 ... 0.28", forms(*CORE, 1.0)),
     Claim("aim", "within 3 s there, in the median", quickly(3.0)),
-    Claim("aim", "strict trot in nine of ten runs at MI 0.06", forms(0.0, 0.07, 0.9)),
+    Claim("aim", "strict {gait} in nine of ten runs at MI 0.06", forms(0.0, 0.07, 0.9)),
     Claim("aim", "and at MI 0.32 ... 0.40, started there", forms(0.3, 1.0, 0.9)),
     Claim("aim", "every foot lifts by at least 6 mm in mid-swing",
           worst(LIFT, "mm:", 1, 1.0, (6.0, np.inf))),

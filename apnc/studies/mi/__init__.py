@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from functools import partial
 from typing import Final
@@ -9,7 +10,9 @@ from typing import Final
 import numpy as np
 from scipy import stats
 
+from apnc import metrics
 from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
 from apnc.studies.claims import (
     FEW,
     MIN_SEEDS,
@@ -44,6 +47,14 @@ OTHERS_MI: Final = MI_VALUES[::2]
 """MI at which the others than APNC walk, with half of the seeds."""
 
 AXIS: Final = ("mi", "MI [1]")
+GAIT: Final = "gait_at_the_end"
+
+SETTLED_S: Final = 5.0
+"""Last part of a run whose phases are told by name [s]."""
+
+COHERENT: Final = 0.9
+"""Least coherence of phases that stay: a drift through a quarter of a cycle has just that [1]."""
+
 DUTY, STRIDE = "duty_factor_mean", "stride_frequency_hz"
 
 
@@ -88,6 +99,23 @@ def stride_line(rows: Sequence[Row]) -> Finding:
     return Finding(text, verdict(off <= 0.15, fit.slope > 0))
 
 
+def measure(record: Record) -> Row:
+    """Which gait the robot has at the end; None for a run that did not come to its end.
+
+    Returns:
+        ``gait_at_the_end``: name of the gait within 0.6 rad of the mean phases of the last 5 s;
+        "no name" for phases that stay, but are those of no gait, "unsettled" for phases that move.
+    """
+    if not record.complete:
+        return {GAIT: None}
+    o1, o2 = record.controller["o1"], record.controller["o2"]
+    period, span = 1.0 / record.experiment.rate, SETTLED_S
+    if (metrics.coherence(o1, o2, period, span) or 0.0) < COHERENT:
+        return {GAIT: "unsettled"}
+    final = metrics.final_phases(o1, o2, period, span)
+    return {GAIT: metrics.nearest_gait(final, metrics.STRICT_TOLERANCE) or "no name"}
+
+
 def table(rows: Sequence[Row]) -> str:
     """A line per method and MI; a trial that ended with an error counts as a failure."""
     cells = [(method, mi) for method in methods_in(rows) for mi in cells_in(rows, "mi")]
@@ -104,11 +132,18 @@ def _line(method: str, mi: float, rows: list[Row]) -> dict[str, str]:
         "MI": f"{mi:.2f}",
         "gait kept, strict (95 % interval)": str(hits),
         "strict time [s], median (quartiles; longest)": spread,
+        "gait at the end": gaits(rows),
         "authors' criterion": f"{len(loose)}/{len(rows)}",
         "authors' time [s], median": f"{np.median(loose):.1f}" if loose else "-",
         "speed [m/s], median (range)": middle(values(rows, "late_speed_m_per_s"), 3),
         "fell": str(len(matching(rows, fell=True))),
     }
+
+
+def gaits(rows: Sequence[Row]) -> str:
+    """How many runs end in which gait, the most frequent first: ``tripod 17, unsettled 3``."""
+    count = Counter(row[GAIT] for row in rows if row.get(GAIT))
+    return ", ".join(f"{name} {runs}" for name, runs in count.most_common()) or "-"
 
 
 CLAIMS: Final = (
@@ -129,6 +164,7 @@ STUDY: Final = Study(
     {"mi": MI_VALUES},
     methods=("apnc", "apc", *ALL[1:]),
     seeds=fewer_of_others(mi=OTHERS_MI),
+    measure=measure,
     claims=CLAIMS,
     figures=lambda rows: [
         *convergence(rows, AXIS),

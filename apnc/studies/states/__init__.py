@@ -7,7 +7,7 @@ from typing import Final
 
 from apnc.studies.claims import FEW, MIN_SEEDS, Claim, Finding, Rule, of_told, verdict
 from apnc.studies.contenders import RIVALS, contender
-from apnc.studies.rows import Row, is_number, matching, methods_in, values
+from apnc.studies.rows import Row, gait_in, is_number, matching, methods_in, values
 from apnc.studies.states.figures import COUPLINGS, STATES, figures, scenes
 from apnc.studies.states.measure import measure
 from apnc.studies.states.timeline import TIMELINE
@@ -27,7 +27,7 @@ MEANING: Final = {
             "front oscillators stop",
             "rocks in place, legs in phase"),
 }  # fmt: skip
-WITH_GAIT: Final = ("forms", "keeps the trot and walks", "comes back to the trot and walks")
+WITH_GAIT: Final = ("forms", "keeps the {gait} and walks", "comes back to the {gait} and walks")
 """The same of all others, of which the paper has no figure."""
 
 
@@ -53,9 +53,9 @@ def state(name: str, method: str, when: tuple[str, str] | None = None) -> Rule:
 
 
 def without_gait(name: str) -> Rule:
-    """No run of a baseline, at any setting, trots in a state; less than half of them is 'partly'.
+    """No run of a baseline, at any setting, has the gait in a state; of less than half 'partly'.
 
-    In S2 only runs count that had the trot at the break.
+    In S2 only runs count that had the gait at the break.
     """
 
     def rule(rows: Sequence[Row]) -> Finding:
@@ -64,7 +64,7 @@ def without_gait(name: str) -> Rule:
             runs = matching(runs, state_S1=True) if name == "S2" else runs
             hits = rate([bool(row.get(f"state_{name}")) for row in runs])
             speed = median(values(runs, f"state_speed_{name.lower()}"))
-            text = f"trots in {hits}, speed {speed.text(3, 'm/s', len(runs))}"
+            text = f"{gait_in(rows)} in {hits}, speed {speed.text(3, 'm/s', len(runs))}"
             if hits.trials < MIN_SEEDS:
                 return Finding(text, FEW)
             return Finding(text, verdict(hits.successes == 0, hits.value < 0.5))
@@ -103,7 +103,7 @@ def table(rows: Sequence[Row]) -> str:
         {
             "couplings": COUPLINGS.get(method, contender(method).name),
             "state": name,
-            "as the paper says": meaning,
+            "as the paper says": meaning.format(gait=gait_in(rows)),
             "success (95 % interval)": str(rate([bool(run.get(f"state_{name}")) for run in runs])),
             "time [s], median (range)": middle(values(runs, time), 1),
             "speed [m/s], median (range)": middle(values(runs, f"state_speed_{name.lower()}"), 3),
@@ -115,8 +115,8 @@ def table(rows: Sequence[Row]) -> str:
 
 
 CLAIMS: Final = (
-    Claim("3.2.1, Fig. 10", "S1: set down at 1.7 s, the trot forms", state("S1", "apnc", FORMED)),
-    Claim("3.2.2, Fig. 11B", "S2: with ANC it trots on with both front sensors stuck",
+    Claim("3.2.1, Fig. 10", "S1: set down at 1.7 s, the {gait} forms", state("S1", "apnc", FORMED)),
+    Claim("3.2.2, Fig. 11B", "S2: with ANC the {gait} goes on with both front sensors stuck",
           state("S2", "apnc")),
     Claim("3.2.2, Fig. 11A", "S2: without ANC the front oscillators stop",
           state("S2", "apc"), ("apc",)),

@@ -21,6 +21,7 @@ from apnc.studies.plots import side_by_side
 from apnc.studies.rows import Row, values
 from apnc.studies.sections import marked
 from apnc.studies.states.timeline import TIMELINE
+from apnc.studies.study import Robot
 from apnc.summary import summarise
 from apnc_core import load
 
@@ -48,12 +49,12 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
     return [side_by_side("states-speed", "Speed in each state", note, "speed [m/s]", groups)]
 
 
-def scenes() -> list[Figure]:
+def scenes(robot: Robot) -> list[Figure]:
     """The run of seed 0 with and without the couplings, over time."""
     return [
         figure
         for method, words in COUPLINGS.items()
-        for figure in over_time(simulate(TIMELINE.experiment(method, 0)), words)
+        for figure in over_time(simulate(TIMELINE.experiment(method, 0, robot=robot)), words)
     ]
 
 

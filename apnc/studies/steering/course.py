@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Final
+from typing import Any, Final
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.steps import Steps
@@ -25,9 +25,9 @@ SLOPES_S: Final = 25.0
 """Length of these walks [s]."""
 
 
-def experiment(method: str, seed: int, course: str) -> Experiment:
+def experiment(course: str, **fields: Any) -> Experiment:
     """A walk along a course."""
-    walk = Experiment(method=method, seed=seed, mi=COURSE_MI, duration=60.0)
+    walk = Experiment(mi=COURSE_MI, duration=60.0, **fields)
     if course == "speeds":
         return replace(walk, mi=SPEEDS)
     if course == "turns":

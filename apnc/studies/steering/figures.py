@@ -20,6 +20,7 @@ from apnc.studies.plots import COLOURS, side_by_side
 from apnc.studies.rows import Row, matching, values
 from apnc.studies.sections import Section, marked
 from apnc.studies.steering.course import SPEED, SPEEDS, YAW_RATE, experiment
+from apnc.studies.study import Robot
 from apnc.summary import summarise
 
 WAYS: Final = ("straight", "right", "left", "straight again")
@@ -42,9 +43,9 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
     ]  # fmt: skip
 
 
-def scenes() -> list[Figure]:
+def scenes(robot: Robot) -> list[Figure]:
     """The run of seed 0 along each course."""
-    speeds, turns = (simulate(experiment("apnc", 0, course)) for course in ("speeds", "turns"))
+    speeds, turns = (simulate(experiment(course, robot=robot)) for course in ("speeds", "turns"))
     return [speeds_over_time(speeds), turns_over_time(turns), path(turns)]
 
 

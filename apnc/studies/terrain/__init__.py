@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -33,10 +33,10 @@ OTHERS_ROUGHNESS: Final = (0.0, 0.4, 0.8, 0.9, 1.0)
 """Roughness that the baselines walk on, with half of the seeds."""
 
 
-def experiment(method: str, seed: int, roughness: float) -> Experiment:
+def experiment(seed: int, roughness: float, **fields: Any) -> Experiment:
     """A walk over obstacles."""
     ground = Ground(roughness=roughness, seed=seed)
-    return Experiment(method=method, seed=seed, ground=ground, mi=WALK_MI, duration=WALK_S)
+    return Experiment(seed=seed, ground=ground, mi=WALK_MI, duration=WALK_S, **fields)
 
 
 def spread_grows(rows: Sequence[Row], column: str) -> Finding:

@@ -21,7 +21,7 @@ from terminal import APNC, apnc
 from apnc import Gait, read_gait, write_gait
 from apnc.cli import main as command_line
 from apnc.studies.registry import STUDIES
-from exudyn_models.robot import ROBOTS
+from exudyn_models.robot import ROBOTS, load_robot
 
 HEAVY = {"exudyn", "exudyn_models.ground", "fmpy", "loky", "numba", "numpy", "plotly", "scipy"}
 
@@ -100,6 +100,10 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["build", "--legs", "1"], "legs = 1 is not in 2 ... 64"),
         (["build", "--platform", "vax"], "platform 'vax' is not one of"),
         (["build", "--set", "N=3.7"], "N = 3.7"),
+        (["build", "--robot", "cow"], "robot 'cow' is unknown; allowed: hexapod, lilibot, octopod"),
+        (["build", "--robot", "hexapod", "--legs", "4"], "legs = 4: robot 'hexapod' has 6"),
+        (["study", "mi", "--robot", "cow"], "robot 'cow' is unknown; allowed: hexapod, lilibot"),
+        (["study", "symmetry", "--robot", "hexapod"], "--robot"),
         (["moo"], "moo"),
         (["walk", "--moo"], "--moo"),
         (["study", "mi", "--trials", "0"], "trials = 0 is not at least 1"),
@@ -241,6 +245,42 @@ def test_a_built_fmu_starts_with_what_was_said(
     found = [float(start[name]) for name in ("xi", "robot_weight", "method", "phi_stored[2]")]
     assert found == [0.07, 33.0, 3.0, 3.2]
     assert start["stored"] == "true"
+
+
+@pytest.mark.parametrize("words", [("--legs", "6"), ("--robot", "hexapod")])
+def test_the_fmu_of_a_robot_starts_with_the_preset_of_its_file(
+    words: tuple[str, ...],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    import fmpy  # noqa: PLC0415
+
+    monkeypatch.chdir(tmp_path)
+    robot = load_robot("hexapod")
+    code, _, err = run(capsys, "build", "--platform", "host", *words)
+    assert code == 0, err
+    start = {v.name: v.start for v in fmpy.read_model_description("Apnc.fmu").modelVariables}
+    assert robot.controller and "leg[6].grf" in start and "leg[7].grf" not in start
+    assert {name: float(start[name]) for name in robot.controller} == dict(robot.controller)
+    assert float(start["robot_weight"]) == pytest.approx(robot.weight)
+
+
+def test_a_study_of_a_hexapod_names_its_robot_and_its_gait(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, _, err = run(
+        capsys, "study", "gait", "--robot", "hexapod", "--mi", "0.08", "--trials", "1",
+        "--duration", "2", "--workers", "1", "--output", "out",
+    )  # fmt: skip
+    assert code == 0, err
+    assert "strict tripod" in Path("out/gait.md").read_text()
+    claims = Path("out/claims.md").read_text()
+    assert "strict tripod in every run" in claims and "trot" not in claims
+    assert "phi_final_16" in Path("out/trials.csv").read_text()
+    page = Path("out/report.html").read_text()
+    assert "<dd>hexapod</dd>" in page and "trot" not in page.split("<main")[1].split("<script")[0]
 
 
 def test_a_gait_is_kept_shown_and_walked_with(

@@ -72,7 +72,7 @@ def test_the_preset_of_the_robot_is_its_own_and_settings_win() -> None:
 
 
 def test_the_weight_is_that_of_the_robot() -> None:
-    for name in ("lilibot", "hexapod"):
+    for name in ("lilibot", "hexapod", "octopod"):
         robot = load_robot(name)
         assert Experiment(robot=name).parameters()["robot_weight"] == robot.weight
     assert Experiment(method="tegotae").parameters()["method"] is Method.tegotae

@@ -12,6 +12,13 @@ PI = np.pi
 WEIGHT = 2.5 * 9.81
 
 
+@pytest.mark.parametrize("n", [4, 6, 8])
+def test_legs_that_stand_still_have_touched(n: int) -> None:
+    even = np.full((3, n), WEIGHT / n)
+    assert metrics.touch_moment(even, WEIGHT) == 0
+    assert metrics.touch_moment(0.79 * even, WEIGHT) is None
+
+
 def test_touch_moment_needs_two_feet() -> None:
     force = np.zeros((5, 4))
     force[1, 0] = force[2, :2] = WEIGHT / 5

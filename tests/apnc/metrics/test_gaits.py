@@ -29,6 +29,10 @@ def touch_downs(n: int, name: str) -> list[set[str]]:
         (6, "tripod", "RF+RH+LM LF+LH+RM"),
         (6, "tetrapod", "RF+LM RH+LF RM+LH"),
         (6, "wave", "RF LH LM LF RH RM"),
+        (6, "direct wave of pairs", "RF+LF RH+LH RM+LM"),
+        (6, "retrograde wave of pairs", "RF+LF RM+LM RH+LH"),
+        (8, "direct wave of pairs", "RF+LF RH+LH RB+LB RA+LA"),
+        (8, "retrograde wave of pairs", "RF+LF RA+LA RB+LB RH+LH"),
         (8, "alternating tetrapod", "RF+RB+LA+LH RA+RH+LF+LB"),
     ],
 )

@@ -40,6 +40,21 @@ def test_cpg_phase_grows_with_time_on_the_real_oscillator() -> None:
     assert np.all(np.diff(phase) > 0)
 
 
+@pytest.mark.parametrize("drift", [0.0, PI / 2, PI, 2 * PI])
+def test_coherence_is_that_of_an_even_drift(drift: float) -> None:
+    t = np.arange(round(20.0 * RATE)) / RATE
+    theta = 2 * PI * 1.4 * t[:, None] + np.stack([0 * t, 0 * t + 3.0, drift / 5.0 * t], axis=1)
+    found = metrics.coherence(*outputs(theta), 1.0 / RATE, 5.0)
+    # smoothing reaches over the end, where the drift is not even
+    assert found == pytest.approx(abs(np.sinc(drift / 2 / PI)), abs=0.08)
+
+
+def test_coherence_of_nothing_and_of_an_oscillator_at_rest() -> None:
+    o1, o2 = outputs(np.zeros((300, 2)))
+    assert metrics.coherence(o1[:0], o2[:0], 1.0 / RATE, 5.0) is None
+    assert metrics.coherence(o1 * [1.0, 0.0], o2, 1.0 / RATE, 5.0) == 0.0
+
+
 def test_cpg_phase_is_zero_where_o1_peaks() -> None:
     angle = np.array([0.0, 1.0, -2.0, 3.1])
     assert metrics.cpg_phase(*outputs(angle)) == pytest.approx(angle)

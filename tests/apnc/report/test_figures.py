@@ -129,6 +129,7 @@ def test_phases_are_those_of_the_leg_and_relation_they_name() -> None:
         assert smoothed[name] == pytest.approx(phase, abs=0.02)
     own = [t for t in figure.data if "FMU" in t["name"]]
     assert [t["name"][:3] for t in own] == ["φ12", "φ13", "φ14"]
+    assert [t["showlegend"] for t in own] == [True, False, False]
     for k, trace in enumerate(own):
         assert y(trace) == pytest.approx(columns("phi")[:, k], rel=1e-5)
     assert axis_of(figure, own[0]) == "relative phase [rad]"
@@ -138,7 +139,7 @@ def test_phases_are_not_struck_through_where_they_leave_the_panel() -> None:
     record = synthetic_record(10.0, (0.0, 0.0, 0.0))
     turning = np.linspace(0.0, 4 * np.pi, len(record))
     record.controller["phi"][:, 0] = turning
-    shown = y(next(t for t in drawn("phi", record).data if t["name"] == "φ12 in the FMU"))
+    shown = y(next(t for t in drawn("phi", record).data if t["name"] == "φ12 … in the FMU"))
     assert np.isnan(shown).sum() == 2
     assert np.nanmax(np.abs(np.diff(shown))) < 0.1
     known = ~np.isnan(shown)

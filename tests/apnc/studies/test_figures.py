@@ -241,10 +241,12 @@ def test_the_table_of_mi_counts_failures_and_errors() -> None:
     for row, time in zip(rows, (3.0, 5.0, None, None), strict=True):
         row |= {STRICT: time, AUTHORS: 2.0, "late_speed_m_per_s": 0.1}
     rows[2]["fell"] = True
+    for row, gait in zip(rows, ("pace", "trot", None, "trot"), strict=True):
+        row[mi.GAIT] = gait
     del rows[3][STRICT], rows[3][AUTHORS], rows[3]["late_speed_m_per_s"], rows[3]["fell"]
     assert mi.table(rows).splitlines()[2] == (
-        "| APNC | 0.10 | 2/4 (7 ... 93 %) | 4.0 (3.5 ... 4.5; 5.0) | 3/4 | 2.0 | "
-        "0.100 (0.100 ... 0.100) | 1 |"
+        "| APNC | 0.10 | 2/4 (7 ... 93 %) | 4.0 (3.5 ... 4.5; 5.0) | "
+        "trot 2, pace 1 | 3/4 | 2.0 | 0.100 (0.100 ... 0.100) | 1 |"
     )
 
 
@@ -252,13 +254,13 @@ def test_the_table_of_mi_has_a_line_per_method_and_mi() -> None:
     lines = mi.table(made_up({"mi": (0.2, 0.08)}, times, OLD)).splitlines()
     assert lines[:2] == [
         "| method | MI | gait kept, strict (95 % interval) | "
-        "strict time [s], median (quartiles; longest) | authors' criterion | "
+        "strict time [s], median (quartiles; longest) | gait at the end | authors' criterion | "
         "authors' time [s], median | speed [m/s], median (range) | fell |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     lines = lines[2:]
     assert [line[2:17] for line in lines[:2]] == ["APNC | 0.08 | 6", "APNC | 0.20 | 6"]
-    assert lines[2].startswith("| Tegotae | 0.08 | 0/6 (0 ... 46 %) | - | 6/6 | 1.0 | - | 0 |")
+    assert lines[2].startswith("| Tegotae | 0.08 | 0/6 (0 ... 46 %) | - | - | 6/6 | 1.0 | - | 0 |")
     assert len(lines) == 6
 
 
@@ -337,12 +339,16 @@ def test_gains_have_figures_per_method_and_criterion() -> None:
     assert "APNC, printed rates, n = 5 of 10" in {t["name"] for t in figures[4].data}
 
 
-def test_baselines_in_the_states_are_judged_by_the_trot() -> None:
+@pytest.mark.parametrize(("legs", "gait"), [(4, "trot"), (6, "tripod"), (10, "gait")])
+def test_baselines_in_the_states_are_judged_by_the_gait_of_the_robot(legs: int, gait: str) -> None:
     def figures(cell: Row) -> Row:
-        return {"state_S1": True, "state_S2": cell["seed"] == 0, "state_S3": False}
+        phases = {f"phi_final_1{k}": None for k in range(2, legs + 1)}
+        return {"state_S1": True, "state_S2": cell["seed"] == 0, "state_S3": False, **phases}
 
     text = states.table(made_up({}, figures, methods=("tegotae_best",), study="states"))
-    assert "| Tegotae (best) | S2 | keeps the trot and walks | 1/6 (0 ... 64 %) | - | - |" in text
+    assert (
+        f"| Tegotae (best) | S2 | keeps the {gait} and walks | 1/6 (0 ... 64 %) | - | - |" in text
+    )
 
 
 def test_contact_shows_error_and_chatter_over_the_step() -> None:
@@ -373,7 +379,7 @@ def test_touch_down_is_shown_for_four_laws(monkeypatch: pytest.MonkeyPatch) -> N
         return Trot(forces, np.zeros(3))
 
     monkeypatch.setattr(contact, "trot", trot)
-    (figure,) = contact.STUDY.scenes()
+    (figure,) = contact.STUDY.scenes("lilibot")
     assert figure.layout["xaxis"]["title"]["text"] == "time from touch-down [ms]"
     assert figure.layout["yaxis"]["title"]["text"] == "vertical force on foot RF [N]"
     assert figure.key == "contact-force" and not figure.over_time

@@ -46,9 +46,9 @@ def verdict(text: str, **figures: Any) -> str:
 )
 def test_formation(time: Any, every: str, median: str, low: str, high: str) -> None:
     of = {"convergence_time_s": time}
-    assert verdict("strict trot in every run", **of) == every
+    assert verdict("strict {gait} in every run", **of) == every
     assert verdict("within 3 s", **of) == median
-    assert verdict("strict trot in nine of ten", **of) == low
+    assert verdict("strict {gait} in nine of ten", **of) == low
     assert verdict("and at MI 0.32", **of) == high
 
 

@@ -334,6 +334,15 @@ def test_bad_grids_are_refused(arguments: tuple[Any, ...], words: str) -> None:
         grid_of(*arguments)
 
 
+def test_the_robot_asked_for_walks_with_its_own_numbers() -> None:
+    for name in [name for name, entry in STUDIES.items() if "robot" in entry.options]:
+        trials = grid_of(name, 1, robot="hexapod")
+        assert {(t.cell["robot"], t.experiment.robot) for t in trials} == {("hexapod", "hexapod")}
+    (steep,) = grid_of("steering", 1, chosen={"course": ["slopes x 1.2"]}, robot="hexapod")
+    own = load_robot("hexapod").controller
+    assert steep.experiment.settings == {k: pytest.approx(1.2 * own[k]) for k in ("a1", "a2")}
+
+
 def test_options_of_the_registry_are_those_of_the_grid() -> None:
     for name, entry in STUDIES.items():
         assert set(entry.options) - {"methods", "robot"} == set(load(name).axes)

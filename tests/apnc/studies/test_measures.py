@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from records import TROT, outputs, synthetic_record
+from records import TRIPOD, TROT, outputs, synthetic_record
 
 from apnc.loop.record import End, Record
-from apnc.studies import contact, forward_model, gains, steering, symmetry
+from apnc.studies import contact, forward_model, gains, mi, steering, symmetry
 from apnc.studies.contact.measure import Trot, chatter, errors, touch_down
 from apnc.studies.engine import measured
 from apnc.studies.rows import Row
@@ -225,7 +225,7 @@ def test_a_robot_may_stand_from_the_start() -> None:
 
 def on_course(course: str, plant: dict[str, Any], ended: float = 60.0) -> Record:
     base = synthetic_record(ended)
-    experiment = steering.experiment("apnc", 0, course)
+    experiment = steering.experiment(course)
     end = End.complete if ended == 60.0 else End.fell
     return replace(base, experiment=experiment, plant={**base.plant, **plant}, end=end)
 
@@ -492,6 +492,27 @@ def test_a_fall_and_a_divergence_are_told_in_the_row() -> None:
     assert fell["convergence_time_s"] is None
     broken = replace(synthetic_record(5.0), end=End.diverged, message="it diverged")
     assert measured("mi", broken)["error"] == "it diverged"
+
+
+@pytest.mark.parametrize(
+    ("phases", "name"),
+    [
+        (TROT, "trot"),
+        ((np.pi + 0.5, np.pi - 0.5, 0.0), "trot"),
+        ((np.pi + 0.7, np.pi, 0.0), "no name"),
+        (TRIPOD, "tripod"),
+        ((2 * np.pi / 3, 4 * np.pi / 3, 0.0, 2 * np.pi / 3, 4 * np.pi / 3), "direct wave of pairs"),
+    ],
+)
+def test_the_gait_at_the_end_has_its_name(phases: Sequence[float], name: str) -> None:
+    assert mi.measure(synthetic_record(20.0, phases)) == {mi.GAIT: name}
+
+
+def test_a_gait_that_is_not_settled_or_fell_has_no_name() -> None:
+    on_the_way = synthetic_record(20.0, formation=(14.0, 20.0))
+    assert mi.measure(on_the_way) == {mi.GAIT: "unsettled"}
+    fell = replace(synthetic_record(20.0), end=End.fell)
+    assert mi.measure(fell) == {mi.GAIT: None}
 
 
 # --- forward models ----------------------------------------------------------------------------

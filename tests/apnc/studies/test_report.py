@@ -103,17 +103,17 @@ def test_a_stopped_study_with_no_row_has_a_report(tmp_path: Path, grid: list[Tri
 def test_scenes_are_drawn_when_all_is_there(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    trials = grid_of("damage", 1)
+    trials = grid_of("damage", 1, robot="hexapod")
     study = engine.load("damage")
-    asked: list[bool] = []
-    object.__setattr__(study, "scenes", lambda: asked.append(True) or [])
+    asked: list[str] = []
+    object.__setattr__(study, "scenes", lambda robot: asked.append(robot) or [])
     try:
         report.files_of(trials, rows_of(trials), 1.0, scenes=False)
         assert asked == []
         report.files_of(trials, rows_of(trials), 1.0, scenes=True)
-        assert asked == [True]
+        assert asked == ["hexapod"]
     finally:
-        object.__setattr__(study, "scenes", lambda: [])
+        object.__setattr__(study, "scenes", lambda robot: [])
 
 
 @needs_browser

@@ -100,7 +100,7 @@ def test_no_sensor_of_a_sound_robot_is_broken() -> None:
 
 def on_course(course: str, **plant: Array) -> Record:
     base = synthetic_record(60.0, frequency=1.5, speed=0.08)
-    asked = experiment("apnc", 0, course)
+    asked = experiment(course)
     commands = {name: _over(base.time, getattr(asked, name)) for name in ("mi", "turn")}
     controller = {**base.controller, "MI": commands["mi"], "turn": commands["turn"]}
     return replace(base, experiment=asked, plant={**base.plant, **plant}, controller=controller)
@@ -185,8 +185,8 @@ def test_the_path_has_equal_scales_and_a_colour_per_section() -> None:
 
 def test_a_run_that_fell_on_its_course_is_shown_as_far_as_it_went() -> None:
     record = synthetic_record(24.0)
-    turns = replace(record, experiment=experiment("apnc", 0, "turns"))
-    speeds = replace(record, experiment=experiment("apnc", 0, "speeds"))
+    turns = replace(record, experiment=experiment("turns"))
+    speeds = replace(record, experiment=experiment("speeds"))
     assert turns_over_time(turns).layout["xaxis"]["range"] == [0.0, 60.0]
     assert speeds_over_time(speeds).layout["xaxis"]["range"] == [0.0, 60.0]
     assert [len(numbers(trace["x"])) for trace in path(turns).data[:4]] == [

@@ -255,6 +255,17 @@ def test_a_hexapod_with_hips_of_one_height_stands_on_all_six_feet() -> None:
     assert not plant.fell
 
 
+def test_the_octopod_stands_on_all_eight_feet() -> None:
+    octopod = load_robot("octopod")
+    plant = stand(replace(octopod, trunk=replace(octopod.trunk, com_side_offset=0.0)))
+    assert plant.legs == ("RF", "R2", "R3", "RH", "LF", "L2", "L3", "LH")
+    force = plant.sample()["foot_force"]
+    assert force[:, 2].sum() == pytest.approx(plant.mass * 9.81, rel=1e-3)
+    assert force[:, 2].min() > 1.0
+    np.testing.assert_allclose(plant.sample()["rpy"], 0.0, atol=0.05)
+    assert not plant.fell
+
+
 def test_the_hexapod_walks_on_alternating_tripods() -> None:
     plant = Plant(load_robot("hexapod"))
     tripods = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
