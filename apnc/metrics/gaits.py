@@ -21,6 +21,8 @@ _HALF_TURNS: Final[dict[int, dict[str, tuple[float, ...]]]] = {
         "tripod": (1, 0, 1, 0, 1),
         "tetrapod": (2 / 3, 4 / 3, 4 / 3, 0, 2 / 3),
         "wave": (1 / 3, 2 / 3, 1, 4 / 3, 5 / 3),
+        "ripple": (2 / 3, 4 / 3, 1, 5 / 3, 1 / 3),
+        "pronk": (0, 0, 0, 0, 0),
     },
     8: {"alternating tetrapod": (1, 0, 1, 1, 0, 1, 0)},
 }
@@ -33,7 +35,8 @@ GAITS: Final = {
 Legs in the FMU's order: right from front to hind, then left (RF, RH, LF, LH). The first gait of
 each is the target: for four legs the trot of the paper. Sources: Alexander 1984 for four (walk:
 hind foot a quarter of a cycle ahead of the front foot of its side), Wilson 1966 for six (waves from
-hind to front), Spagna and Peattie 2012 for eight.
+hind to front), Ferrell 1994 for the ripple (a leg of each side at a time, the sides half a cycle
+apart), Spagna and Peattie 2012 for eight.
 """
 
 

@@ -29,6 +29,8 @@ def touch_downs(n: int, name: str) -> list[set[str]]:
         (6, "tripod", "RF+RH+LM LF+LH+RM"),
         (6, "tetrapod", "RF+LM RH+LF RM+LH"),
         (6, "wave", "RF LH LM LF RH RM"),
+        (6, "ripple", "RF LM RH LF RM LH"),
+        (6, "pronk", "RF+RM+RH+LF+LM+LH"),
         (8, "alternating tetrapod", "RF+RB+LA+LH RA+RH+LF+LB"),
     ],
 )
