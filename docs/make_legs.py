@@ -127,7 +127,9 @@ def multipliers(maps: list[Row], robot: str) -> str:
     def cell(row: Row) -> str:
         if np.isnan(largest(row)):
             return "gone"
-        text = f"{', '.join(row['multipliers'].split()[:2])}; {float(row['orbit_rad']):.1f}"
+        off = float(row["orbit_rad"])
+        where = f"{off:.1f}" if off < np.pi else "none"
+        text = f"{', '.join(row['multipliers'].split()[:2])}; {where}"
         return f"**{text}**" if row["holds"] == "1" else text
 
     gaits = dict.fromkeys(row["gait"] for row in at(maps, robot=robot))
@@ -194,9 +196,11 @@ class Panel:
     def _add(self, row: int, **trace: Any) -> None:
         self._plot.add_scatter(**{"showlegend": False} | trace, row=row, col=self._column)
 
-    def _feet(self, row: int, place: int, title: str, text: Sequence[str], **marker: Any) -> None:
-        """Feet and centre of mass seen from above, nose up, the place-th of the row [cm]."""
-        middle, half, ink = PITCH_CM * place, self._n // 2, {"size": 11, "color": theme.INK}
+    def _feet(
+        self, row: int, middle: float, title: str, text: Sequence[str], **marker: Any
+    ) -> None:
+        """Feet and centre of mass seen from above, nose up [cm]."""
+        half, ink = self._n // 2, {"size": 11, "color": theme.INK}
         right, ahead = middle - 100.0 * self._stance.y, 100.0 * self._stance.x
         round_trip = [*range(half), *reversed(range(half, self._n)), 0]
         edge = {"color": theme.GREY, "width": 1}
@@ -204,8 +208,9 @@ class Panel:
         cross = {"symbol": "cross-thin", "size": 9, "line": {"width": 1.5, "color": theme.INK}}
         self._add(row, x=[middle], y=[0.0], mode="markers", marker=cross)
         marker |= {"opacity": 1.0, "line": {"color": theme.INK, "width": 1.2}}
-        self._add(row, x=right, y=ahead, mode="markers+text", marker=marker, text=text, textfont=ink,
-                  textposition=["middle right"] * half + ["middle left"] * half)  # fmt: skip
+        sides = ["middle right"] * half + ["middle left"] * half
+        self._add(row, x=right, y=ahead, mode="markers+text", marker=marker, text=text,
+                  textfont=ink, textposition=sides)  # fmt: skip
         self._add(row, x=[middle], y=[27.0], mode="text", text=[title],
                   textfont={"size": 12, "color": theme.INK})  # fmt: skip
 
@@ -221,24 +226,27 @@ class Panel:
             colour = [theme.INK if leg in down else "#ffffff" for leg in range(self._n)]
             text = [f"{100.0 * part:.0f} %" if part else "" for part in share]
             title = f"{metrics.gait_name(self._n)}, {half} half cycle"
-            self._feet(row, place, title, text, size=14, color=colour)
+            self._feet(row, (place - 0.5) * 1.5 * PITCH_CM, title, text, size=14, color=colour)
 
     def felt(self, row: int) -> None:
         """Patterns of leg lengths that the trunk cannot follow, and how much of each is load."""
         stiff, loads = self._stance.stiffness, self._stance.loads()
-        for place, (name, pattern) in enumerate(list(patterns(self._n).items())[3:]):
+        named = list(patterns(self._n).items())[3:]
+        for place, (name, pattern) in enumerate(named):
+            middle = (place - 0.5 * (len(named) - 1)) * PITCH_CM
             share = pattern @ loads @ pattern / (pattern @ (stiff * pattern))
             sizes = 4.0 + 18.0 * np.sqrt(np.abs(pattern) / np.abs(pattern).max())
-            sign = [theme.BLUE if part > 0.0 else theme.ORANGE for part in pattern]
-            text = ["+" if part > 0.01 else "\u2212" if part < -0.01 else "0" for part in pattern]
+            signs = np.sign(pattern.round(6)).astype(int)
+            sign = [("#ffffff", theme.BLUE, theme.ORANGE)[each] for each in signs]
+            text = [("0", "+", "\u2212")[each] for each in signs]
             title = f"{name}, {100.0 * share:.0f} % load"
-            self._feet(row, place, title, text, size=sizes, color=sign)
+            self._feet(row, middle, title, text, size=sizes, color=sign)
 
     def marks(
         self,
         row: int,
         rows: list[Row],
-        value: Callable[[Row], float],
+        value: Callable[[Row], float | None],
         filled: Callable[[Row], bool],
     ) -> None:
         """A marker per gait, MI and plant."""
@@ -272,12 +280,16 @@ def draw(maps: list[Row], runs: list[Row]) -> None:
         panel.carries(1)
         panel.felt(2)
         gaits = [*dict.fromkeys(row["gait"] for row in at(maps, robot=robot)), "other"]
-        panel.marks(3, maps, lambda row: GONE if np.isnan(largest(row)) else largest(row),
+        panel.marks(3, maps, lambda row: np.fmin(largest(row), GONE),
                     lambda row: row["holds"] == "1")  # fmt: skip
-        panel.marks(4, shares(runs, gaits, robot), lambda row: row["share"], lambda row: True)
+        panel.marks(
+            4, shares(runs, gaits, robot), lambda row: row["share"] or None, lambda row: True
+        )
         for row in (1, 2):
-            plot.update_xaxes(row=row, col=column, visible=False, range=[-22, 2 * PITCH_CM + 22])
-            plot.update_yaxes(row=row, col=column, visible=False, range=[-24, 32])
+            plot.update_xaxes(row=row, col=column, visible=False, range=[-66, 66])
+            alike = ("x", "x2", "x3", "x4")[2 * row + column - 3]
+            plot.update_yaxes(row=row, col=column, visible=False, range=[-20, 31],
+                              scaleanchor=alike)  # fmt: skip
         common = theme.axis("", categoryarray=gaits, categoryorder="array")
         for row in (3, 4):
             plot.update_xaxes(row=row, col=column, **common, range=[-0.5, len(gaits) - 0.5])
@@ -297,7 +309,9 @@ def draw(maps: list[Row], runs: list[Row]) -> None:
     plot.update_yaxes(row=3, col=1, title="largest multiplier per cycle [1]")
     plot.update_yaxes(row=4, col=1, title="runs that end in it [%]")
     plot.update_layout(theme.layout(1000, scattermode="group", hovermode=False))
-    plot.update_layout(legend={"y": -0.05, "yanchor": "top"}, margin={"t": 30, "b": 90})
+    plot.update_layout(
+        legend={"y": -0.04, "yanchor": "top", "entrywidth": 190}, margin={"t": 30, "b": 90}
+    )
     page = plotly.io.to_html(plot, include_plotlyjs=True, div_id="legs")
     (DOCS / "pictures" / "legs.svg").write_text(pictures(page)["legs"], encoding="utf-8")
 
