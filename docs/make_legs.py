@@ -2,7 +2,7 @@
 
 ``nice python docs/make_legs.py [measure [PROCESSES]]``: without the word tables and picture are
 made from the files. Every number of the robots is taken from their files: run it again after one
-has changed. Measuring takes five minutes of one core.
+has changed. Measuring takes about three minutes of one core.
 """
 
 from __future__ import annotations
@@ -154,7 +154,7 @@ def predictions(maps: list[Row], runs: list[Row]) -> str:
                 held = [row["gait"] for row in at(maps, **place) if row["holds"] == "1"]
                 ended = Counter(row["gait"] for row in at(runs, **place)).most_common()
                 lines.append(
-                    {name: str(value) for name, value in place.items()}
+                    {"robot": robot, "plant": which, "MI": f"{mi:g}"}
                     | {"multipliers let hold": ", ".join(held) or "none"}
                     | {"runs end in": ", ".join(f"{gait} {count}" for gait, count in ended)}
                 )
@@ -171,7 +171,7 @@ def write_page(maps: list[Row], runs: list[Row]) -> None:
     page.write_text(text, encoding="utf-8")
 
 
-PITCH_CM: Final = 42.0
+PITCH_CM: Final = 52.0
 """From one robot to the next in a panel."""
 
 GONE: Final = 20.0
@@ -286,7 +286,7 @@ def draw(maps: list[Row], runs: list[Row]) -> None:
             4, shares(runs, gaits, robot), lambda row: row["share"] or None, lambda row: True
         )
         for row in (1, 2):
-            plot.update_xaxes(row=row, col=column, visible=False, range=[-66, 66])
+            plot.update_xaxes(row=row, col=column, visible=False, range=[-80, 80])
             alike = ("x", "x2", "x3", "x4")[2 * row + column - 3]
             plot.update_yaxes(row=row, col=column, visible=False, range=[-20, 31],
                               scaleanchor=alike)  # fmt: skip
