@@ -23,6 +23,8 @@ _HALF_TURNS: Final[dict[int, dict[str, tuple[float, ...]]]] = {
         "wave": (1 / 3, 2 / 3, 1, 4 / 3, 5 / 3),
         "direct wave of pairs": (2 / 3, 4 / 3, 0, 2 / 3, 4 / 3),
         "retrograde wave of pairs": (4 / 3, 2 / 3, 0, 4 / 3, 2 / 3),
+        "ripple": (2 / 3, 4 / 3, 1, 5 / 3, 1 / 3),
+        "pronk": (0, 0, 0, 0, 0),
     },
     8: {
         "alternating tetrapod": (1, 0, 1, 1, 0, 1, 0),
@@ -39,9 +41,10 @@ GAITS: Final = {
 Legs in the FMU's order: right from front to hind, then left (RF, RH, LF, LH). The first gait of
 each is the target: for four legs the trot of the paper. Sources: Alexander 1984 for four (walk:
 hind foot a quarter of a cycle ahead of the front foot of its side), Wilson 1966 for six (waves from
-hind to front), Spagna and Peattie 2012 for eight. In a wave of pairs left and right step together,
-and the pairs one after the other: from hind to front in a direct wave, as millipedes walk, from
-front to hind in a retrograde one (Kuroda et al. 2014 name the directions).
+hind to front), Ferrell 1994 for the ripple (a leg of each side at a time, the sides half a cycle
+apart), Spagna and Peattie 2012 for eight. In a wave of pairs left and right step together, and the
+pairs one after the other: from hind to front in a direct wave, as millipedes walk, from front to
+hind in a retrograde one (Kuroda et al. 2014 name the directions).
 """
 
 

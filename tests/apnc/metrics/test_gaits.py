@@ -33,6 +33,8 @@ def touch_downs(n: int, name: str) -> list[set[str]]:
         (6, "retrograde wave of pairs", "RF+LF RM+LM RH+LH"),
         (8, "direct wave of pairs", "RF+LF RH+LH RB+LB RA+LA"),
         (8, "retrograde wave of pairs", "RF+LF RA+LA RB+LB RH+LH"),
+        (6, "ripple", "RF LM RH LF RM LH"),
+        (6, "pronk", "RF+RM+RH+LF+LM+LH"),
         (8, "alternating tetrapod", "RF+RB+LA+LH RA+RH+LF+LB"),
     ],
 )

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from apnc import metrics
 from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
-from apnc.studies.modes.returns import free_cycle, return_map
+from apnc.studies.modes.gaits import CANDIDATES, gait_of, mirrored
+from apnc.studies.modes.returns import (
+    ReturnMap,
+    free_cycle,
+    parameters_of,
+    release,
+    return_map,
+)
 from apnc.studies.modes.stance import Stance, patterns, stance_of
 from apnc.studies.modes.trunk import SpringTrunk
-from apnc.studies.robots import changed, constant
+from apnc.studies.robots import symmetric
 from apnc_core import oscillator
+from apnc_core.enumerations import Method
 from apnc_core.interface import Parameters
 from exudyn_models.robot import load_robot
 
@@ -120,12 +126,101 @@ def test_the_reduced_plant_forms_the_trot() -> None:
     assert error[-120:].max() < metrics.STRICT_TOLERANCE
 
 
-def test_the_trot_is_stable_in_the_reduced_plant() -> None:
-    lilibot = load_robot("lilibot")
-    robot = replace(lilibot, sensor=replace(lilibot.sensor, noise=0.0))
-    robot = changed(robot, "trunk.com_side_offset", constant(0.0))
-    p = Parameters(robot_weight=robot.weight)
-    found = return_map(lambda: SpringTrunk(robot), p, 0.15, metrics.GAITS[4]["trot"])
-    assert found.names == ("roll", "pitch", "warp")
-    assert (found.multipliers < 0.9).all()
-    assert np.abs(found.drift).max() < 0.3
+class Weightless:
+    """A plant whose feet never feel anything: every oscillator is alone."""
+
+    fell = False
+
+    def grf(self) -> np.ndarray:
+        return np.zeros(6)
+
+    def advance(self, theta_hip: np.ndarray, theta_knee: np.ndarray, duration: float) -> None:
+        pass
+
+
+def test_oscillators_that_feel_nothing_keep_every_difference() -> None:
+    p = parameters_of(Experiment(robot="hexapod", mi=0.15))
+    found = return_map(release(Weightless, p, 0.15), metrics.GAITS[6]["tripod"])  # type: ignore[arg-type]
+    assert tuple(found.patterns) == ("roll", "pitch", "twist", "bend", "tripod")
+    np.testing.assert_allclose(found.matrix, np.eye(5), atol=0.01)
+    np.testing.assert_allclose(found.drift, 0.0, atol=0.01)
+
+
+MAP = np.array([[0.6, 0.3, 0.0], [-0.3, 0.6, 0.1], [0.0, 0.0, 0.5]])
+"""Of roll, pitch and warp; eigenvalues 0.6 + 0.3 i and its conjugate, 0.5."""
+
+
+def mapped(matrix: np.ndarray, orbit: np.ndarray) -> ReturnMap:
+    """The return map of phases that go by a map from one cycle of 40 ticks to the next."""
+    basis = np.array(list(patterns(4).values())[1:])
+    trot = np.concatenate([[0.0], metrics.GAITS[4]["trot"]])
+    values, vectors = np.linalg.eig(matrix)
+
+    def released(phases: np.ndarray) -> np.ndarray:
+        cycles = np.arange(40 * 12) / 40.0
+        own = np.linalg.solve(vectors, basis @ (phases - trot) - orbit)
+        delta = ((values ** cycles[:, None] * own) @ vectors.T).real + orbit
+        legs = delta @ basis
+        return trot + 2.0 * np.pi * cycles[:, None] + legs - legs[:, :1]
+
+    return return_map(released, metrics.GAITS[4]["trot"])
+
+
+def test_a_return_map_that_is_known_is_found() -> None:
+    orbit = np.array([0.1, -0.05, 0.2])
+    found = mapped(MAP, orbit)
+    assert tuple(found.patterns) == ("roll", "pitch", "warp")
+    np.testing.assert_allclose(found.matrix, MAP, atol=0.01)
+    np.testing.assert_allclose(found.drift, (np.eye(3) - MAP) @ orbit, atol=0.01)
+    np.testing.assert_allclose(found.multipliers, [np.sqrt(0.45), np.sqrt(0.45), 0.5], atol=0.01)
+    legs = orbit @ np.array(list(found.patterns.values()))
+    assert found.orbit == pytest.approx(np.abs(legs - legs[0]).max(), abs=0.01)
+    assert found.holds
+
+
+def test_a_gait_that_grows_or_lies_elsewhere_does_not_hold() -> None:
+    grows = mapped(np.diag([0.5, 0.5, 1.5]), np.zeros(3))
+    np.testing.assert_allclose(grows.multipliers, [1.5, 0.5, 0.5], atol=0.01)
+    assert not grows.holds
+    elsewhere = mapped(MAP, np.array([0.0, 0.0, 0.7]))
+    assert elsewhere.multipliers[0] < 0.7 and elsewhere.orbit > metrics.STRICT_TOLERANCE
+    assert not elsewhere.holds
+
+
+def test_of_a_gait_that_is_gone_within_a_cycle_nothing_is_said() -> None:
+    found = mapped(np.diag([0.5, 0.5, 0.01]), np.array([0.0, 0.0, 5.0]))
+    assert np.isnan(found.multipliers).all() and np.isnan(found.orbit) and not found.holds
+
+
+def test_parameters_are_those_of_the_robot() -> None:
+    p = parameters_of(Experiment(robot="hexapod"))
+    hexapod = load_robot("hexapod")
+    assert p.method == Method.apc and p.robot_weight == pytest.approx(hexapod.weight)
+    assert {name: getattr(p, name) for name in hexapod.controller} == dict(hexapod.controller)
+
+
+def reduced(robot: str, gait: str, push: float) -> ReturnMap:
+    even = symmetric(load_robot(robot))
+    loop = release(lambda: SpringTrunk(even), parameters_of(Experiment(robot=even)), 0.15)
+    return return_map(loop, CANDIDATES[len(even.legs)][gait], push=push)
+
+
+def test_in_the_reduced_plant_the_trot_holds() -> None:
+    found = reduced("lilibot", "trot", 0.3)
+    assert found.holds and found.multipliers[0] < 0.9
+
+
+@pytest.mark.parametrize("robot", ["lilibot", "hexapod"])
+def test_in_the_reduced_plant_legs_in_phase_come_apart(robot: str) -> None:
+    assert reduced(robot, "pronk", 0.04).multipliers[0] > 1.5
+
+
+@pytest.mark.parametrize(("n", "name"), [(n, name) for n in (4, 6, 8) for name in CANDIDATES[n]])
+def test_a_gait_and_its_mirror_image_have_one_name(n: int, name: str) -> None:
+    gait = np.array(CANDIDATES[n][name]) + 0.2
+    assert gait_of(gait) == gait_of(mirrored(gait)) == name
+    np.testing.assert_allclose(metrics.wrap(mirrored(mirrored(gait)) - gait), 0.0, atol=1e-12)
+
+
+def test_a_gait_without_a_name() -> None:
+    assert gait_of([0.5 * np.pi, 0.0, 0.5 * np.pi]) == "other"
