@@ -56,16 +56,16 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Types.Angle a1(min=0.0, max=1.6)=0.14
       "slope of the motor neuron of the hip (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Types.Angle a2(min=0.0, max=1.6)=0.14
+    parameter Types.Angle a2(min=0.0, max=1.6)=0.17
       "slope of the motor neuron of the knee (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Types.Angle b1(displayUnit="deg", min=-1.6, max=1.6)=-0.26
+    parameter Types.Angle b1(displayUnit="deg", min=-1.6, max=1.6)=-0.43
       "offset of the motor neuron of the hip (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Types.Angle b2(displayUnit="deg", min=-1.6, max=1.6)=0.05
+    parameter Types.Angle b2(displayUnit="deg", min=-1.6, max=1.6)=0.18
       "offset of the motor neuron of the knee (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Real turn_gain(unit="1", min=0.0, max=1.0)=0.95
+    parameter Real turn_gain(unit="1", min=0.0, max=1.0)=0.87
       "relative change of the amplitudes at full steering (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
   end MotorNeurons;
@@ -89,7 +89,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Real A_s(unit="1", min=0.0, max=1.0)=0.99
       "retention of the slow learner (Eq. 8)"
       annotation (Dialog(group="DualRateLearner"));
-    parameter Real B_s(unit="1", min=0.0, max=1.0)=0.00075
+    parameter Real B_s(unit="1", min=0.0, max=1.0)=0.0009
       "learning rate of the slow learner (Eq. 8)"
       annotation (Dialog(group="DualRateLearner"));
   end DualRateLearner;
@@ -119,7 +119,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Types.PhaseMeasure phase_measure=Types.PhaseMeasure.vector
       "how the relative phases are measured; the paper prints peak (Eq. 12)"
       annotation (Dialog(group="PhaseAcquisition"));
-    parameter Real phase_filter(unit="1", min=0.0001, max=1.0)=0.05
+    parameter Real phase_filter(unit="1", min=0.0001, max=1.0)=0.035
       "new part per tick in the low-pass of the vector phase measure (Eq. 12)"
       annotation (Dialog(group="PhaseAcquisition"));
   end PhaseAcquisition;

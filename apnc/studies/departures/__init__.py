@@ -19,7 +19,7 @@ from apnc_core.schema import Causality
 from apnc_core.variables import rows as variables
 
 TOGETHER: Final = (
-    ("b1", "b2"), ("B_f", "B_s"), ("o1_start", "o2_start"), ("xi",), ("feedback_kept",),
+    ("a2",), ("b1", "b2"), ("B_f", "B_s"), ("o1_start", "o2_start"), ("xi",), ("feedback_kept",),
     ("phase_measure",), ("phase_filter",), ("kappa_rule",), ("coupling_sign",), ("phi_frozen",),
     ("MI_zero_resets",),
 )  # fmt: skip
