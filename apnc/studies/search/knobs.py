@@ -9,6 +9,8 @@ from typing import Final, NamedTuple
 
 from apnc.studies.robots import changed, constant
 from apnc_core.interface import Parameters
+from apnc_core.schema import Causality, Type
+from apnc_core.variables import rows
 from exudyn_models.robot import Leg, RobotDescription, load_robot
 
 
@@ -58,7 +60,7 @@ _MANY_LEGS: Final = (
     Knob("a2", 0.1, 0.25),
     Knob("b1", -0.3, 0.2),
     Knob("b2", -0.3, 0.2),
-    Knob("outer.y", 0.03, 0.07),
+    Knob("outer.y", 0.03, 0.10),
     Knob("inner.y", 0.07, 0.15),
     Knob("inner.z", -0.004, 0.004),
     Knob("trunk.com_x", -0.05, 0.05),
@@ -72,6 +74,8 @@ _MANY_LEGS: Final = (
     Knob("sensor.delay", 0.005, 0.07),
     Knob("B_f", 0.1, 1.0, log=True),
     Knob("B_s", 1e-4, 2e-2, log=True),
+    Knob("kappa_hold", 100.0, 500.0, log=True),
+    Knob("o1_start", 0.005, 0.2, log=True),
 )
 
 KNOBS: Final[Mapping[str, tuple[Knob, ...]]] = {
@@ -165,5 +169,7 @@ def _stood(robot: RobotDescription, outer: bool, axis: int, value: float) -> Rob
 
 
 def gains(candidate: Candidate) -> dict[str, float]:
-    """Parameters of the controller of a candidate."""
-    return {name: value for name, value in candidate.items() if "." not in name}
+    """Parameters of the controller of a candidate; counts are rounded."""
+    whole = {v.name for v in rows(Causality.parameter) if v.type is Type.integer}
+    own = {name: value for name, value in candidate.items() if "." not in name}
+    return {name: round(value) if name in whole else value for name, value in own.items()}
