@@ -70,6 +70,13 @@ def test_the_report_shows_claims(tmp_path: Path, grid: list[Trial]) -> None:
     assert (tmp_path / "mi.md").read_text().startswith("| method | MI | gait kept, strict")
 
 
+def test_aims_are_reached_or_not_and_are_not_claims_of_the_paper(tmp_path: Path) -> None:
+    aims = grid_of("gait", 6, chosen={"mi": [0.08, 0.16]})
+    page = write(tmp_path, aims, rows_of(aims))
+    assert "aimed at" in page and "reached?" in page and ">reached</td>" in page
+    assert "paper says" not in page and ">reproduced</td>" not in page
+
+
 def test_a_method_that_was_not_run_is_said(tmp_path: Path) -> None:
     few = grid_of("mi", 1, ["apnc", "tegotae"], {"mi": [0.08]})
     page = write(tmp_path, few, rows_of(few))
