@@ -62,14 +62,14 @@ CONTENDERS: Final[Mapping[str, Contender]] = {
         _authors_gain(0.03), _IN_CONDITIONS | _VARIED,
     ),
     "tegotae_best": Contender(
-        "tegotae", "Tegotae (best)", theme.VERMILLION, "diamond", {"gamma_tegotae": 0.06},
+        "tegotae", "Tegotae (best)", theme.VERMILLION, "diamond", {"gamma_tegotae": 0.15},
     ),
     "phase_reset": Contender(
         "phase_reset", "phase resetting", theme.GREEN, "triangle-up-open",
         {"grf_reset": 0.4}, _VARIED,
     ),
     "phase_reset_best": Contender(
-        "phase_reset", "phase resetting (best)", theme.PURPLE, "triangle-up", {"grf_reset": 0.4},
+        "phase_reset", "phase resetting (best)", theme.PURPLE, "triangle-up", {"grf_reset": 0.2},
     ),
     "apnc_kept": Contender(
         "apnc", "APNC, feedback kept", theme.GREY, "square", {"feedback_kept": 1.0},
