@@ -86,8 +86,8 @@ def costs(
 ) -> tuple[float, ...]:
     """Costs of one candidate, by ``names``.
 
-    Memory, steering and a blocked oscillator are asked of APNC alone, payload and the fast walk of
-    four legs.
+    Memory, steering and a blocked oscillator are asked of APNC alone; payload, the fast walk, other
+    update rates and steering of four legs alone.
     """
     robot, settings = built_robot(candidate, robot_name), gains(candidate)
     n_legs, own = len(robot.legs), method == "apnc"
@@ -114,11 +114,13 @@ def costs(
         *(cost(walk_cost, walk) for walk in walks),
         *(cost(feet_cost, walk) for walk in walks),
         1.5 * ratio_cost(speeds[COURSE_MI], speeds[FASTEST]) if four else 0.0,
-        cost(formation_cost, walked(WALK_MI, rate=rate, duration=WALK_S * 60.0 / rate)),
+        cost(formation_cost, walked(WALK_MI, rate=rate, duration=WALK_S * 60.0 / rate))
+        if four
+        else 0.0,
         cost(payload_cost, walked(WALK_MI, conditions="C4")) if four else 0.0,
         cost(damage_cost, walked(COURSE_MI, conditions="C3")),
         memory_cost(MEMORY.experiment("apnc", next(seeds), **shared)) if own else 0.0,
-        steering_cost(Experiment(seed=next(seeds), **STEERING, **shared)) if own else 0.0,
+        steering_cost(Experiment(seed=next(seeds), **STEERING, **shared)) if own and four else 0.0,
         3.0 * blocked_cost(robot, settings) if own else 0.0,
     )
 
