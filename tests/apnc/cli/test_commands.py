@@ -16,12 +16,13 @@ if os.name == "nt":
 
 import resource
 
+from stiff import stiff_robot
 from terminal import APNC, apnc
 
 from apnc import Gait, read_gait, write_gait
 from apnc.cli import main as command_line
 from apnc.studies.registry import STUDIES
-from exudyn_models.robot import ROBOTS, load_robot
+from exudyn_models.robot import load_robot
 
 HEAVY = {"exudyn", "exudyn_models.ground", "fmpy", "loky", "numba", "numpy", "plotly", "scipy"}
 
@@ -179,9 +180,7 @@ def test_a_fall_is_said_and_has_its_own_code(tmp_path: Path) -> None:
 
 
 def test_a_run_that_diverges_is_not_interrupted_and_shows_no_huge_numbers(tmp_path: Path) -> None:
-    # an impact law so stiff that the step cannot follow
-    robot = (ROBOTS / "lilibot.toml").read_text()
-    (tmp_path / "stiff.toml").write_text(robot.replace("= 4800.0", "= 1e300"))
+    (tmp_path / "stiff.toml").write_text(stiff_robot())
     done = apnc("walk", "--robot", "stiff.toml", "--duration", "9", cwd=tmp_path)
     assert done.returncode == 1, done.stderr
     assert "diverged at" in done.stderr and "interrupted" not in done.stderr + done.stdout
