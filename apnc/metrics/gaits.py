@@ -30,6 +30,7 @@ _HALF_TURNS: Final[dict[int, dict[str, tuple[float, ...]]]] = {
         "alternating tetrapod": (1, 0, 1, 1, 0, 1, 0),
         "direct wave of pairs": (1 / 2, 1, 3 / 2, 0, 1 / 2, 1, 3 / 2),
         "retrograde wave of pairs": (3 / 2, 1, 1 / 2, 0, 3 / 2, 1, 1 / 2),
+        "pronk": (0, 0, 0, 0, 0, 0, 0),
     },
 }
 GAITS: Final = {

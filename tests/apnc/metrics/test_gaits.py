@@ -36,6 +36,7 @@ def touch_downs(n: int, name: str) -> list[set[str]]:
         (6, "ripple", "RF LM RH LF RM LH"),
         (6, "pronk", "RF+RM+RH+LF+LM+LH"),
         (8, "alternating tetrapod", "RF+RB+LA+LH RA+RH+LF+LB"),
+        (8, "pronk", "RF+RA+RB+RH+LF+LA+LB+LH"),
     ],
 )
 def test_order_of_touch_downs(n: int, name: str, order: str) -> None:
