@@ -220,7 +220,7 @@ def render() -> dict[str, str]:
     }
     env = _environment()
     files = {path: env.get_template(name).render(context) for name, path in TARGETS.items()}
-    return files | {modelica.AMALGAMATION: modelica.amalgamation()}
+    return files | {modelica.AMALGAMATION: modelica.amalgamation(files)}
 
 
 def outdated(root: Path = ROOT) -> list[str]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import importlib.resources
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Final
 
 from apnc_core import dual_rate_learner, forward_model, load, phase_reset
@@ -158,11 +158,14 @@ def c_argument(v: Variable) -> str:
     return f"{scalar} {v.name}" if v.shape is Shape.scalar else f"const {scalar} *{v.name}"
 
 
-def amalgamation() -> str:
+def amalgamation(generated: Mapping[str, str]) -> str:
     """The C core as one header without external names, which a tool may include where it likes.
 
     Local includes are put in their place once; functions and tables become static, because some
     tools include the header in several translation units of one model.
+
+    Args:
+        generated: text of the files of the core that are generated too, by path in the project.
     """
     core = importlib.resources.files("fmu_src").joinpath("core")
     seen: set[str] = set()
@@ -171,7 +174,9 @@ def amalgamation() -> str:
         if name in seen:
             return
         seen.add(name)
-        for line in core.joinpath(name).read_text(encoding="utf-8").splitlines():
+        text = generated.get(f"fmu_src/core/{name}")
+        text = text or core.joinpath(name).read_text(encoding="utf-8")
+        for line in text.splitlines():
             local = re.match(r'#include "(.+)"', line)
             if local:
                 yield from inlined(local[1])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
@@ -79,3 +79,14 @@ def test_preset_paper_has_the_printed_constants() -> None:
 def test_unknown_preset_is_named() -> None:
     with pytest.raises(ValueError, match="preset 'cow' is not one of lilibot, paper"):
         preset("cow")
+
+
+def test_one_run_writes_a_changed_table_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The single header of the Modelica package holds the table too, and is made from it."""
+    changed = replace(row("phase_filter"), start=0.0421)
+    table = tuple(changed if v.name == "phase_filter" else v for v in TABLE)
+    monkeypatch.setattr(generate, "TABLE", table)
+    monkeypatch.setattr(generate, "rows", lambda of: tuple(v for v in table if v.causality is of))
+    files = generate.render()
+    for path in ("fmu_src/core/apnc_variables.c", "modelica/Apnc/Resources/Include/apnc_core.h"):
+        assert "0.0421" in files[path], path

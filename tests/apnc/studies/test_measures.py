@@ -266,7 +266,7 @@ def test_a_robot_that_walks_in_a_circle_has_its_speed() -> None:
 
 def test_a_walk_on_other_slopes_has_one_section() -> None:
     row = steering.measure(
-        replace(synthetic_record(25.0), experiment=steering.experiment("apnc", 0, "slopes x 0.8"))
+        replace(synthetic_record(25.0), experiment=steering.experiment("slopes x 0.8"))
     )
     assert row == {"speed_section_1": pytest.approx(0.08, rel=0.01)}
 

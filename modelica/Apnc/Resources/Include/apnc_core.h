@@ -1048,7 +1048,7 @@ static const apnc_row apnc_rows[APNC_ROWS] = {
     {"alpha", "alpha", "", AT(parameters, alpha), 1, APNC_REAL, APNC_TUNABLE, 0.9, 0.0, 1.0},
     {"rho", "rho", "", AT(parameters, rho), 1, APNC_REAL, APNC_TUNABLE, 0.99, 0.0, 1.0},
     {"phase_measure", "phase_measure", "", AT(parameters, phase_measure), 1, APNC_ENUMERATION, APNC_FIXED, 1.0, 1.0, 2.0},
-    {"phase_filter", "phase_filter", "", AT(parameters, phase_filter), 1, APNC_REAL, APNC_TUNABLE, 0.05, 0.0001, 1.0},
+    {"phase_filter", "phase_filter", "", AT(parameters, phase_filter), 1, APNC_REAL, APNC_TUNABLE, 0.035, 0.0001, 1.0},
     {"N", "N", "", AT(parameters, N), 1, APNC_INTEGER, APNC_FIXED, 50.0, 1.0, 256.0},
     {"sigma", "sigma", "", AT(parameters, sigma), 1, APNC_REAL, APNC_TUNABLE, 0.4, 0.0, 10.0},
     {"kappa_rule", "kappa_rule", "", AT(parameters, kappa_rule), 1, APNC_ENUMERATION, APNC_TUNABLE, 1.0, 1.0, 2.0},
