@@ -57,7 +57,7 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
             "allowed: names that differ",
         ),
         ("[servo]", "[motor]", "motor is {"),
-        ("delay = 0.011", "delay = -0.05", "sensor.delay is -0.05"),
+        ("[sensor]\ndelay = ", "[sensor]\ndelay = -0.05 # ", "sensor.delay is -0.05"),
     ],
 )
 def test_values_out_of_range_are_named(tmp_path: Path, old: str, new: str, expected: str) -> None:
