@@ -212,7 +212,8 @@ def test_in_the_reduced_plant_the_trot_holds() -> None:
 
 @pytest.mark.parametrize("robot", ["lilibot", "hexapod"])
 def test_in_the_reduced_plant_legs_in_phase_come_apart(robot: str) -> None:
-    assert reduced(robot, "pronk", 0.04).multipliers[0] > 1.5
+    found = reduced(robot, "pronk", 0.04).multipliers[0]
+    assert np.isnan(found) or found > 1.5  # nan: gone within a cycle
 
 
 @pytest.mark.parametrize(("n", "name"), [(n, name) for n in (4, 6, 8) for name in CANDIDATES[n]])
