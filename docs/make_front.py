@@ -1,4 +1,4 @@
-"""Draw the front of a search: formation against lift, every set that was walked again.
+"""Draw the front of a search: lift against speed, every set that was walked again.
 
 python docs/make_front.py docs/formation/front.csv docs/pictures/front.svg
 """
@@ -19,27 +19,31 @@ SHIPPED = "shipped"
 
 
 def figure(rows: list[dict[str, str]]) -> dict[str, object]:
-    """Mean over MI of the lowest lift of a foot, over the walks that form the gait."""
+    """Lowest lift of a foot, mean over MI, over the speed at MI 0.4 in that at 0.15."""
+    on_it = [row for row in rows if row["front"] == "1" and row["candidate"] != SHIPPED]
+    every = [row for row in on_it if float(row["strict"]) == float(row["payload"]) == 1.0]
     groups = {
-        "beaten by another": ([r for r in rows if r["front"] == "0"], theme.GREY, "circle-open", 7),
-        "front": ([r for r in rows if r["front"] == "1"], theme.BLUE, "circle", 10),
+        "beaten by another": ([r for r in rows if r["front"] == "0"], theme.GREY, "x-thin-open", 7),
+        "front, but not every walk a trot": (
+            [row for row in on_it if row not in every], theme.ORANGE, "diamond-open", 10,
+        ),
+        "front, every walk a trot, under the payload, too": (every, theme.BLUE, "circle", 10),
         "shipped": ([r for r in rows if r["candidate"] == SHIPPED], theme.VERMILLION, "star", 16),
-    }
-    data = []
-    for name, (own, colour, symbol, size) in groups.items():
-        own = sorted(own, key=lambda r: float(r["strict"]))
-        data.append({
+    }  # fmt: skip
+    data = [
+        {
             "type": "scatter",
-            "mode": "lines+markers" if name == "front" else "markers",
+            "mode": "markers",
             "name": name,
-            "x": [100.0 * float(r["strict"]) for r in own],
-            "y": [float(r["lift_mm"]) for r in own],
-            "marker": {"color": colour, "symbol": symbol, "size": size},
-            "line": {"shape": "vh", "width": 1, "color": colour},
-        })  # fmt: skip
+            "x": [float(row["ratio"]) for row in own],
+            "y": [float(row["lift_mm"]) for row in own],
+            "marker": {"color": colour, "symbol": symbol, "size": size, "line": {"width": 2}},
+        }
+        for name, (own, colour, symbol, size) in groups.items()
+    ]
     layout = theme.layout(
         420,
-        xaxis=theme.axis("walks that form the strict trot [%]"),
+        xaxis=theme.axis("speed at MI 0.4 over that at 0.15 [1]"),
         yaxis=theme.axis("lowest lift of a foot, mean over MI [mm]"),
     )
     return {"data": data, "layout": layout}

@@ -31,8 +31,8 @@ WALK_S: Final = 25.0
 
 SHIPPED: Final = "shipped"
 
-BIGGER_IS_BETTER: Final = ("strict", "lift_mm")
-"""The figures that collide; what the front is of."""
+BETTER: Final = {"strict": 1, "payload": 1, "lift_mm": 1, "ratio": 1, "turn_deg": -1}
+"""The figures that collide, of which the front is: 1 if more is better, -1 if less."""
 
 
 def best_layers(points: ArrayLike, count: int) -> NDArray[np.intp]:
@@ -133,7 +133,7 @@ def front(
     judge = functools.partial(measured, robot=robot, seeds=seeds)
     with pool(workers, None) as executor:
         found = list((executor.map if executor else map)(judge, tried.values()))
-    best = unbeaten([[-one[name] for name in BIGGER_IS_BETTER] for one in found])
+    best = unbeaten([[-sign * one[name] for name, sign in BETTER.items()] for one in found])
     with output.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(["candidate", "front", *found[0], *names])
