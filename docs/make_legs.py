@@ -292,9 +292,16 @@ def draw(maps: list[Row], runs: list[Row]) -> None:
                               scaleanchor=alike)  # fmt: skip
         common = theme.axis("", categoryarray=gaits, categoryorder="array")
         for row in (3, 4):
-            plot.update_xaxes(row=row, col=column, **common, range=[-0.5, len(gaits) - 0.5],
-                              tickvals=gaits, tickangle=0,
-                              ticktext=[name.replace(" wave of ", "<br>") for name in gaits])  # fmt: skip
+            plot.update_xaxes(
+                row=row,
+                col=column,
+                **common,
+                range=[-0.5, len(gaits) - 0.5],
+                tickvals=gaits,
+                tickangle=0,
+                tickfont={"size": 10},
+                ticktext=[name.replace(" wave of ", "<br>") for name in gaits],
+            )
         one = {"color": theme.INK, "width": 1.2, "dash": "dash"}
         plot.add_hline(y=1.0, row=3, col=column, line=one)
     for which, mi, symbol, colour in LOOKS:
