@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.studies import gait, steering
 from apnc.studies.contact.measure import GRADUAL, SUDDEN, errors, trot
-from apnc.studies.states.measure import measure
+from apnc.studies.states.measure import judge, measure
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.steering import course
 from apnc.studies.study import WALK_MI
@@ -49,6 +50,16 @@ def test_the_hexapod_forms_a_tripod_and_keeps_it(seed: int) -> None:
     c = record.controller
     tripod = np.array(metrics.GAITS[6]["tripod"])
     assert metrics.phase_error(c["o1"], c["o2"], tripod)[-300:].max() < metrics.STRICT_TOLERANCE
+
+
+@pytest.mark.parametrize(("method", "keeps"), [("apnc", True), ("apc", False)])
+def test_the_hexapod_keeps_and_recalls_its_tripod_with_couplings_only(
+    method: str, keeps: bool
+) -> None:
+    when = replace(TIMELINE, lowered=0.0)  # started on the ground
+    found = judge(simulate(when.experiment(method, 1, robot="hexapod")), when)
+    assert found["kept"] is found["recovered"] is keeps
+    assert found["front_stopped"] is found["in_phase"] is not keeps
 
 
 @pytest.mark.parametrize("mi", [WALK_MI, 0.15])
