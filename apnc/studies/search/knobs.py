@@ -38,13 +38,18 @@ class Knob(NamedTuple):
 Candidate = Mapping[str, float]
 """Values by the names of their knobs."""
 
-_BODY: Final = (
-    Knob("servo.stiffness", 14.0, 24.0, log=True),
-    Knob("servo.damping", 0.7, 1.1, log=True),
+_UNKNOWN: Final = (
     Knob("servo.reflected_inertia", 0.0075, 0.02, log=True),
     Knob("contact.stiffness", 3e3, 4e4, log=True),
     Knob("contact.damping", 300.0, 800.0, log=True),
     Knob("sensor.delay", 0.005, 0.07),
+)
+"""What is published of no robot."""
+
+_BODY: Final = (
+    Knob("servo.stiffness", 14.0, 24.0, log=True),
+    Knob("servo.damping", 0.7, 1.1, log=True),
+    *_UNKNOWN,
 )
 
 _POSE: Final = (Knob("b1", -0.6, 0.0), Knob("b2", -0.4, 0.4))
@@ -68,10 +73,7 @@ _MANY_LEGS: Final = (
     Knob("trunk.com_side_offset", 0.002, 0.02),
     Knob("servo.stiffness", 14.0, 80.0, log=True),
     Knob("servo.damping", 0.7, 2.5, log=True),
-    Knob("servo.reflected_inertia", 0.0075, 0.02, log=True),
-    Knob("contact.stiffness", 3e3, 4e4, log=True),
-    Knob("contact.damping", 300.0, 800.0, log=True),
-    Knob("sensor.delay", 0.005, 0.07),
+    *_UNKNOWN,
     Knob("B_f", 0.1, 1.0, log=True),
     Knob("B_s", 1e-4, 2e-2, log=True),
     Knob("kappa_hold", 100.0, 500.0, log=True),
