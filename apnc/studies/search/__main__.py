@@ -17,6 +17,7 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
+from apnc.studies.search.command import run, tracked
 from apnc.studies.search.costs import FAILED, costs, names
 from apnc.studies.search.knobs import Candidate, Knob, knobs_of, start
 from apnc.studies.workers import pool
@@ -33,8 +34,8 @@ def search(
     own_robot: Annotated[bool, typer.Option(help="A baseline's robot and pose, too.")] = False,
     feet: Annotated[float, typer.Option(help="Weight of lift, slip, touches and turn.")] = 1.0,
     seed: Annotated[int, typer.Option(help="Of optimiser and trials.")] = 1,
-    generations: Annotated[int, typer.Option(help="How many.")] = 60,
-    candidates: Annotated[int, typer.Option(help="In a generation.")] = 14,
+    generations: Annotated[int, typer.Option(min=1, help="How many.")] = 60,
+    candidates: Annotated[int, typer.Option(min=2, help="In a generation.")] = 14,
     workers: Annotated[int, typer.Option(help="Processes.")] = 1,
     sigma: Annotated[float, typer.Option(help="First spread, share of the ranges.")] = 0.15,
     begin: Annotated[Path | None, typer.Option(help="Log whose last mean is the start.")] = None,
@@ -60,7 +61,7 @@ def search(
         log.writerow(
             ["generation", "cost", *(f"cost_{n}" for n in parts), *(k.name for k in knobs)]
         )
-        for generation in range(generations):
+        for generation in tracked(range(generations), generations, "generations"):
             points = strategy.ask()
             tried = [_candidate(knobs, x) for x in points]
             seeds = [1000 * seed + generation] * len(tried)
@@ -98,8 +99,10 @@ def _begin(robot: str, knobs: Sequence[Knob], log: Path | None) -> list[tuple[Kn
     values = {knob.name: start(shipped, knob.name) for knob in knobs}
     if log is not None:
         with log.open(newline="", encoding="utf-8") as file:
-            last = [r for r in csv.DictReader(file) if r["generation"].startswith("mean")][-1]
-        values |= {name: float(last[name]) for name in values if name in last}
+            means = [r for r in csv.DictReader(file) if r.get("generation", "").startswith("mean")]
+        if not means:
+            raise ValueError(f"{log} has no mean of a generation; it is no log of a search")
+        values |= {name: float(means[-1][name]) for name in values if name in means[-1]}
     return [(knob, values[knob.name]) for knob in knobs]
 
 
@@ -153,4 +156,4 @@ def _candidate(knobs: Sequence[Knob], x: Array) -> dict[str, float]:
 
 
 if __name__ == "__main__":
-    typer.run(search)
+    run(search)

@@ -294,4 +294,4 @@ def _error(record: Record, part: slice) -> Array:
 
 
 def _target(n_legs: int) -> tuple[float, ...]:
-    return next(iter(metrics.GAITS[n_legs].values()))
+    return metrics.GAITS[n_legs][metrics.gait_name(n_legs)]

@@ -1,6 +1,6 @@
 """``python -m apnc.studies.search.front LOG ... --output front.csv``: where the aims collide.
 
-The candidates of some searches that no other beats in formation and in feet at once are walked
+The candidates of some searches that others beat least in formation and in feet at once are walked
 again, all with the same seeds, and measured in the figures of the study ``gait``. Those that none
 beats in these are the front.
 """
@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
 from apnc.studies import gait
+from apnc.studies.search.command import run, tracked
 from apnc.studies.search.knobs import Candidate, built_robot, gains, knobs_of, start
 from apnc.studies.study import COURSE_MI, WALK_MI
 from apnc.studies.workers import pool
@@ -63,13 +64,20 @@ def unbeaten(points: ArrayLike) -> NDArray[np.bool_]:
 
 
 def candidates_of(logs: Sequence[Path], count: int, robot: str) -> dict[str, Candidate]:
-    """The candidates of some logs that are best in formation and in feet, by log and line."""
+    """The candidates of some logs that are best in formation and in feet, by log and line.
+
+    Raises:
+        ValueError: a file that is no log of a search for APNC on this robot.
+    """
     names = [knob.name for knob in knobs_of(robot, "apnc")]
     tried: dict[str, Candidate] = {}
     points = []
     for log in logs:
         with log.open(newline="", encoding="utf-8") as file:
-            for line, row in enumerate(csv.DictReader(file), start=2):
+            table = csv.DictReader(file)
+            if lacking := [n for n in ("generation", *names) if n not in (table.fieldnames or ())]:
+                raise ValueError(f"{log} has no column '{lacking[0]}'; it is no log of {robot}")
+            for line, row in enumerate(table, start=2):
                 if row["generation"].startswith("mean"):
                     continue
                 costs = {name: float(v) for name, v in row.items() if name.startswith("cost_")}
@@ -81,7 +89,7 @@ def candidates_of(logs: Sequence[Path], count: int, robot: str) -> dict[str, Can
 
 
 def measured(candidate: Candidate, robot: str, seeds: int) -> dict[str, float]:
-    """Figures of a candidate over MI, without and, for four legs at MI 0.08, with payload."""
+    """Figures of a candidate over MI, and with payload at MI 0.08."""
     body, settings = built_robot(candidate, robot), gains(candidate)
 
     def walk(mi: float, seed: int, **more: Any) -> dict[str, Any]:
@@ -121,26 +129,39 @@ def front(
     logs: Annotated[list[Path], typer.Argument(help="search.csv of searches, for one robot.")],
     output: Annotated[Path, typer.Option(help="File of figures and numbers.")] = Path("front.csv"),
     robot: Annotated[str, typer.Option(help="Name of the robot.")] = "lilibot",
-    count: Annotated[int, typer.Option(help="How many candidates are walked again.")] = 40,
-    seeds: Annotated[int, typer.Option(help="Of every walk.")] = 3,
+    count: Annotated[int, typer.Option(min=1, help="How many candidates walk again.")] = 40,
+    seeds: Annotated[int, typer.Option(min=1, help="Of every walk.")] = 3,
     workers: Annotated[int, typer.Option(help="Processes.")] = 1,
 ) -> None:
-    """Walk the best candidates again and write their figures, the front marked."""
+    """Walk the best candidates again and write their figures, the front marked.
+
+    Interrupted, it writes those that have walked.
+    """
     tried = candidates_of(logs, count, robot)
     shipped = load_robot(robot)
     names = [knob.name for knob in knobs_of(robot, "apnc")]
     tried = {SHIPPED: {name: start(shipped, name) for name in names}, **tried}
     judge = functools.partial(measured, robot=robot, seeds=seeds)
+    found: list[dict[str, float]] = []
     with pool(workers, None) as executor:
-        found = list((executor.map if executor else map)(judge, tried.values()))
+        walks = (executor.map if executor else map)(judge, tried.values())
+        try:
+            found.extend(tracked(walks, len(tried), "candidates"))
+        finally:
+            _write(output, tried, found)
+
+
+def _write(output: Path, tried: Mapping[str, Candidate], found: Sequence[dict[str, float]]) -> None:
+    if not found:
+        return
     best = unbeaten([[-sign * one[name] for name, sign in BETTER.items()] for one in found])
     with output.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
-        table.writerow(["candidate", "front", *found[0], *names])
-        for (label, numbers), one, on_it in zip(tried.items(), found, best, strict=True):
+        table.writerow(["candidate", "front", *found[0], *next(iter(tried.values()))])
+        for (label, numbers), one, on_it in zip(tried.items(), found, best, strict=False):
             values = [f"{value:.5g}" for value in (*one.values(), *numbers.values())]
             table.writerow([label, int(on_it), *values])
 
 
 if __name__ == "__main__":
-    typer.run(front)
+    run(front)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import csv
+import subprocess
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +14,7 @@ import pytest
 from numpy.typing import NDArray
 from records import TROT, synthetic_record
 
+from apnc import metrics
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
@@ -22,6 +26,7 @@ from apnc.studies.search.costs import (
     WANTED_TURN,
     _StuckSensor,
     blocked_cost,
+    costs,
     damage_cost,
     feet_cost,
     formation_cost,
@@ -31,7 +36,15 @@ from apnc.studies.search.costs import (
     steering_cost,
     walk_cost,
 )
-from apnc.studies.search.front import best_layers, candidates_of, unbeaten
+from apnc.studies.search.front import (
+    BETTER,
+    MI_VALUES,
+    best_layers,
+    candidates_of,
+    front,
+    measured,
+    unbeaten,
+)
 from apnc.studies.search.knobs import KNOBS, OWN, built_robot, gains, knobs_of, start
 from exudyn_models.robot import ROBOTS, load_robot
 
@@ -128,6 +141,126 @@ def test_candidates_come_from_logs_without_their_means(tmp_path: Path) -> None:
     log.parent.mkdir()
     log.write_text("\n".join(lines))
     assert list(candidates_of([log], 2, "lilibot")) == ["one:2", "one:5"]
+
+
+def log_of(tmp_path: Path, lines: Sequence[str]) -> Path:
+    log = tmp_path / "search.csv"
+    log.write_text("\n".join(lines))
+    return log
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (("", "--robot", "cat"), "robot 'cat' is not one of lilibot, "),
+        (("", "--method", "fuzzy"), "method 'fuzzy' is not one of apnc, "),
+        (("", "--begin", "search.csv"), "search.csv has no mean of a generation"),
+        ((".front", "search.csv"), "search.csv has no column 'a2'; it is no log of lilibot"),
+        ((".front", "nowhere.csv"), "nowhere.csv"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(
+    tmp_path: Path, arguments: tuple[str, ...], named: str
+) -> None:
+    log_of(tmp_path, ["generation,b1", "0,0.1"])
+    module, *rest = arguments
+    done = subprocess.run(
+        [sys.executable, "-m", f"apnc.studies.search{module}", *rest],
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2
+    (line,) = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
+    assert named in line and "Traceback" not in done.stderr
+
+
+def asked(
+    monkeypatch: pytest.MonkeyPatch, robot: str, method: str
+) -> tuple[dict[str, float], list[Experiment]]:
+    """Costs by name of walks in the robot's gait, and the experiments that were asked for."""
+    legs = tuple(leg.name for leg in load_robot(robot).legs)
+    gait = metrics.default_target(len(legs))
+    assert gait is not None
+    runs: list[Experiment] = []
+
+    def simulated(experiment: Experiment, plant: object = None) -> Record:
+        runs.append(experiment)
+        return synthetic_record(experiment.duration, gait)
+
+    monkeypatch.setattr("apnc.studies.search.costs.simulate", simulated)
+    found = costs({}, 0, robot, method)
+    return dict(zip(names(len(legs)), found, strict=True)), runs
+
+
+def test_four_legs_are_asked_for_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, runs = asked(monkeypatch, "lilibot", "apnc")
+    bands = BANDS[4]
+    assert [run.mi for run in runs[: len(bands)]] == [band[0] for band in bands]
+    assert [run.method for run in runs[: len(bands)]].count("apc") == 1
+    conditions = [run.conditions for run in runs]
+    assert conditions.count("C3") == conditions.count("C4") == 1
+    assert [run.rate for run in runs if run.rate != 60.0] == [25.0]
+    assert sum("stored" in run.settings for run in runs) == 2  # memory and steering
+    assert found["ratio"] > 0.0  # all walk at one speed
+
+
+def test_six_legs_have_bands_of_their_own_and_no_payload_or_rate(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found, runs = asked(monkeypatch, "hexapod", "apnc")
+    assert [run.mi for run in runs[: len(BANDS[6])]] == [band[0] for band in BANDS[6]]
+    assert all(run.rate == 60.0 and run.conditions != "C4" for run in runs)
+    (stored,) = [run.settings["phi_stored"] for run in runs if "stored" in run.settings]
+    assert np.abs(np.subtract(stored, metrics.default_target(6) or ())).max() < 0.2
+    assert found["ratio"] == found["rate"] == found["payload"] == found["steering"] == 0.0
+
+
+def test_a_baseline_is_asked_for_no_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, runs = asked(monkeypatch, "lilibot", "tegotae")
+    assert {run.method for run in runs} == {"tegotae"}
+    assert {"C3", "C4"} < {run.conditions for run in runs}
+    assert found["memory"] == found["steering"] == found["blocked"] == 0.0
+
+
+def test_figures_of_the_front_are_those_of_the_walks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of walks that are a trot but for MI 0.06, at 1 MI m/s: 8 of 9 strict, 0.4 / 0.15 in speed."""
+
+    def simulated(experiment: Experiment) -> Record:
+        assert isinstance(experiment.mi, float)
+        phases = (0.0, 0.0, 0.0) if experiment.mi == 0.06 else TROT
+        return synthetic_record(experiment.duration, phases, speed=experiment.mi)
+
+    monkeypatch.setattr("apnc.studies.search.front.simulate", simulated)
+    found = measured({}, "lilibot", 2)
+    assert found["strict"] == pytest.approx(8 / 9) and found["payload"] == 1.0
+    assert found["ratio"] == pytest.approx(0.4 / 0.15, rel=1e-3)
+    assert found["turn_deg"] == pytest.approx(0.0, abs=1e-6)
+    assert found["lift_mm"] == pytest.approx(found["least_lift_mm"])
+    assert found["lifts"] == len(MI_VALUES) * (found["lift_mm"] >= 6.0)
+
+
+def test_the_front_is_marked_and_an_interrupt_keeps_what_has_walked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    knobs = [knob.name for knob in knobs_of("lilibot", "apnc")]
+    head = ",".join(["generation", "cost", "cost_mi_0.08", "cost_feet_0.08", *knobs])
+    numbers = ",".join("0.1" for _ in knobs)
+    log = log_of(tmp_path, [head, *(f"0,9,{n}.0,{-n}.0,{numbers}" for n in range(3))])
+    lifts = iter([5.0, 6.0, 4.0])
+
+    def walked(candidate: dict[str, float], robot: str, seeds: int) -> dict[str, float]:
+        lift = next(lifts, None)
+        if lift is None:
+            raise KeyboardInterrupt
+        return {**dict.fromkeys(BETTER, 1.0), "lift_mm": lift}
+
+    monkeypatch.setattr("apnc.studies.search.front.measured", walked)
+    with pytest.raises(KeyboardInterrupt):
+        front([log], tmp_path / "front.csv", "lilibot", 3, 1, 1)
+    with (tmp_path / "front.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["lift_mm"] for row in rows] == ["5", "6", "4"]
+    assert [row["front"] for row in rows] == ["0", "1", "0"] and rows[0]["candidate"] == "shipped"
+    assert float(rows[0]["a2"]) == start(LILIBOT, "a2")
 
 
 def walk(phases: Sequence[float] = TROT, speed: float = 0.1) -> Record:
