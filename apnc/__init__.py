@@ -17,28 +17,28 @@ from apnc_core import __version__
 if TYPE_CHECKING:
     from apnc.loop.experiment import Experiment
     from apnc.loop.gait import Gait, gait_of_run, read_gait, write_gait
-    from apnc.loop.plant import Plant
     from apnc.loop.record import End, Record
     from apnc.loop.simulate import simulate
     from apnc.report.folder import write_run as write_report
     from apnc.studies.engine import run_study
     from apnc.summary import Summary, summarise
-    from exudyn_models.conditions import Conditions
-    from exudyn_models.ground import Ground, Kerb, Plane, Surface, Waves
-    from exudyn_models.robot import RobotDescription, load_robot
+    from apnc_plant.conditions import Conditions
+    from apnc_plant.ground import Ground, Kerb, Plane, Surface, Waves
+    from apnc_plant.plant import Plant
+    from apnc_plant.robot import RobotDescription, load_robot
 
 _PLACES: Final = {
     "Experiment": "apnc.loop.experiment",
     **dict.fromkeys(("Gait", "gait_of_run", "read_gait", "write_gait"), "apnc.loop.gait"),
-    "Plant": "apnc.loop.plant",
+    "Plant": "apnc_plant.plant",
     **dict.fromkeys(("End", "Record"), "apnc.loop.record"),
     "simulate": "apnc.loop.simulate",
     "write_report": "apnc.report.folder:write_run",
     "run_study": "apnc.studies.engine",
     **dict.fromkeys(("Summary", "summarise"), "apnc.summary"),
-    "Conditions": "exudyn_models.conditions",
-    **dict.fromkeys(("Ground", "Kerb", "Plane", "Surface", "Waves"), "exudyn_models.ground"),
-    **dict.fromkeys(("RobotDescription", "load_robot"), "exudyn_models.robot"),
+    "Conditions": "apnc_plant.conditions",
+    **dict.fromkeys(("Ground", "Kerb", "Plane", "Surface", "Waves"), "apnc_plant.ground"),
+    **dict.fromkeys(("RobotDescription", "load_robot"), "apnc_plant.robot"),
 }
 
 __all__ = [

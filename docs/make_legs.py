@@ -22,7 +22,6 @@ from plotly.subplots import make_subplots
 from put_table import put
 
 from apnc import Experiment, metrics
-from apnc.loop.plant import Plant
 from apnc.loop.simulate import plant_of, simulate
 from apnc.report import theme
 from apnc.studies.modes.gaits import CANDIDATES, gait_of
@@ -31,7 +30,8 @@ from apnc.studies.modes.stance import patterns, stance_of
 from apnc.studies.modes.trunk import SpringTrunk
 from apnc.studies.robots import symmetric
 from apnc.studies.table import markdown
-from exudyn_models.robot import load_robot
+from apnc_plant.plant import Plant
+from apnc_plant.robot import load_robot
 
 DOCS: Final = Path(__file__).resolve().parent
 MAPS: Final = DOCS / "data" / "legs_multipliers.csv"

@@ -13,7 +13,7 @@ from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record, column_names
 from apnc_core.schema import Causality, Shape
 from apnc_core.variables import TABLE
-from exudyn_models.channels import PLANT_CHANNELS
+from apnc_plant.channels import PLANT_CHANNELS
 
 HEAD = """# record.csv
 

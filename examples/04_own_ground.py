@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 import apnc
-from exudyn_models.ground import Numbers
+from apnc_plant.ground import Numbers
 
 
 @dataclass(frozen=True)

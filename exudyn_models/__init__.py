@@ -1,1 +1,1 @@
-"""Multibody models of legged robots in Exudyn and the co-simulation master that drives them."""
+"""The reference plant: the robot as a kinematic tree in Exudyn."""

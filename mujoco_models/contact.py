@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
-from exudyn_models.robot.model import RobotDescription
+from apnc_plant.robot.model import RobotDescription
 
 REGULARISING_MASS: Final = 0.01
 """1/R of the normal direction [kg], see :func:`pair_of`: small beside a foot with its rotors."""

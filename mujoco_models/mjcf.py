@@ -10,10 +10,10 @@ from xml.etree import ElementTree
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from exudyn_models.ground import Plane
-from exudyn_models.physics.start import start_coordinates
-from exudyn_models.robot.links import links_of
-from exudyn_models.robot.model import GRAVITY, Leg, MassProperties, RobotDescription
+from apnc_plant.ground import Plane
+from apnc_plant.robot.links import links_of
+from apnc_plant.robot.model import GRAVITY, Leg, MassProperties, RobotDescription
+from apnc_plant.start import start_coordinates
 from mujoco_models.contact import IMPRATIO, Pair
 
 SERVOS: Final = ("position", "dcmotor")
@@ -37,7 +37,7 @@ _add = ElementTree.SubElement
 def tree_mjcf(
     robot: RobotDescription, trunk: MassProperties, slope: float, pairs: Sequence[Pair]
 ) -> str:
-    """The robot in the coordinates of ``exudyn_models.physics.coordinates``, for our own plant.
+    """The robot in the coordinates of ``apnc_plant.coordinates``, for our own plant.
 
     The base has three slides and three hinges, hip and knee turn about +y, and there are no
     actuators: all forces come from outside.
@@ -61,7 +61,7 @@ def tree_mjcf(
 def robot_mjcf(robot: RobotDescription, pairs: Sequence[Pair], *, servo: str = "position") -> str:
     """The robot for other users: free base, servos, sensors, a level ground and something to see.
 
-    Joint angles, their signs and the reference pose are ours, see ``exudyn_models.channels``.
+    Joint angles, their signs and the reference pose are ours, see ``apnc_plant.channels``.
 
     Args:
         robot: the robot.

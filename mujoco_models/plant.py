@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from exudyn_models.physics.legged import LeggedPlant
+from apnc_plant.legged import LeggedPlant
 from mujoco_models.tree import MujocoTree
 
 

@@ -7,10 +7,10 @@ from typing import Any, ClassVar, Final
 
 import numpy as np
 
-from exudyn_models.channels import PlantError
-from exudyn_models.physics.legged import Engine, Setup
-from exudyn_models.physics.options import COMPILED
-from exudyn_models.robot.model import Array, RobotDescription
+from apnc_plant.channels import PlantError
+from apnc_plant.legged import Engine, Setup
+from apnc_plant.options import COMPILED
+from apnc_plant.robot.model import Array, RobotDescription
 from mujoco_models.contact import Pair, pair_of
 from mujoco_models.engine import mj
 from mujoco_models.mjcf import foot_of, robot_mjcf, tree_mjcf

@@ -8,9 +8,9 @@ from typing import Final
 
 import numpy as np
 
-from exudyn_models.physics.options import PlantOptions
-from exudyn_models.physics.plant import Plant
-from exudyn_models.robot import RobotDescription, load_robot
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import RobotDescription, load_robot
+from exudyn_models.plant import Plant
 
 LEGS: Final = (4, 6, 8)
 TICK: Final = 1 / 60

@@ -71,7 +71,7 @@ def build(
 def _of_robot(name: str | None, legs: int | None, *, own: bool) -> tuple[int, dict[str, Setting]]:
     """Number of legs, and weight and preset of the robot that is named or else shipped."""
     from apnc_core.variables import row
-    from exudyn_models.robot import ROBOTS, load_robot
+    from apnc_plant.robot import ROBOTS, load_robot
 
     if name is None:
         legs = 4 if legs is None else legs

@@ -20,7 +20,7 @@ def export_robot(
     servo: Annotated[Text, Option(help="Of MJCF: position, dcmotor; position if omitted.")] = None,
 ) -> None:
     """Write a robot as MJCF (MuJoCo) or URDF (ROS): masses, joints, servos, feet, sensors."""
-    from exudyn_models.robot import load_robot
+    from apnc_plant.robot import load_robot
 
     if form not in FORMATS:
         raise ValueError(f"format '{form}' is not one of {', '.join(FORMATS)}")
@@ -28,7 +28,7 @@ def export_robot(
         raise ValueError(f"servo '{servo}' is of MJCF; URDF has limits of a joint only")
     own = load_robot(robot)
     if form == "urdf":
-        from exudyn_models.robot.urdf import robot_urdf
+        from apnc_plant.robot.urdf import robot_urdf
 
         text, suffix = robot_urdf(own), "urdf"
     else:

@@ -18,12 +18,12 @@ from apnc.cli.console import File, Number, Text, Texts, bar, say, show_table, st
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.loop.steps import parse_steps
 from apnc_core.enumerations import Method
-from exudyn_models.conditions import CONDITIONS
+from apnc_plant.conditions import CONDITIONS
 
 if TYPE_CHECKING:
     from apnc.loop.experiment import Experiment
     from apnc.loop.fmu_controller import FmuController
-    from exudyn_models.ground import Surface
+    from apnc_plant.ground import Surface
 
 ENDED_EARLY: Final = 1
 """Exit code of a run that fell or diverged."""
@@ -155,7 +155,7 @@ def _ground(text: Text, roughness: Number, slope: Number, seed: int | None) -> d
         return {}
     if text is not None and roughness is not None:
         raise ValueError(f"--ground {text} and --roughness {roughness} both say the ground")
-    from exudyn_models.ground import surface
+    from apnc_plant.ground import surface
 
     own = apnc.Plane() if roughness is None else apnc.Ground(roughness=roughness, seed=seed or 0)
     ground = own if text is None else surface(text)

@@ -7,7 +7,15 @@ from functools import cache
 from pathlib import Path
 from typing import Final
 
-_PACKAGES: Final = ("apnc", "apnc_core", "build_fmu", "exudyn_models", "fmu_src", "mujoco_models")
+_PACKAGES: Final = (
+    "apnc",
+    "apnc_core",
+    "apnc_plant",
+    "build_fmu",
+    "exudyn_models",
+    "fmu_src",
+    "mujoco_models",
+)
 _SUFFIXES: Final = (".c", ".h", ".py", ".toml")
 
 # of apnc: what only shows, times, exports or looks for parameters

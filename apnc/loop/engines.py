@@ -6,9 +6,9 @@ import importlib
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
-    from exudyn_models.physics.legged import LeggedPlant
+    from apnc_plant.legged import LeggedPlant
 
-ENGINES: Final = {"exudyn": "exudyn_models.physics.plant", "mujoco": "mujoco_models.plant"}
+ENGINES: Final = {"exudyn": "exudyn_models.plant", "mujoco": "mujoco_models.plant"}
 """Module of the plant in each engine."""
 
 OWN_ENGINE: Final = "exudyn"

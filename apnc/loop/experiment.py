@@ -23,10 +23,10 @@ from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import Causality, Value
 from apnc_core.settings import checked
 from apnc_core.variables import row, rows
-from exudyn_models.conditions import CONDITIONS, Conditions, named_conditions
-from exudyn_models.ground import Plane, Surface, from_dict
-from exudyn_models.physics.options import PlantOptions
-from exudyn_models.robot import ROBOTS, RobotDescription, load_robot
+from apnc_plant.conditions import CONDITIONS, Conditions, named_conditions
+from apnc_plant.ground import Plane, Surface, from_dict
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
 
 Setting = Value | Sequence[float]
 

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from apnc_core.schema import Causality, Shape, Type, Value
 from apnc_core.variables import TABLE, Scalar, row, scalars
+from apnc_plant.trace import Trace
 from build_fmu.platforms import BuildError, library_of, why_not_loaded
-from exudyn_models.trace import Trace
 
 Array = NDArray[np.float64]
 Setting = Value | Sequence[float]

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from apnc.loop.experiment import Experiment
 from apnc_core.schema import Shape, Variable
 from apnc_core.variables import TABLE
-from exudyn_models.channels import PLANT_CHANNELS
-from exudyn_models.robot import RobotDescription
+from apnc_plant.channels import PLANT_CHANNELS
+from apnc_plant.robot import RobotDescription
 
 Array = NDArray[np.float64]
 
@@ -36,7 +36,7 @@ class Record:
         legs: leg names in FMU order, e.g. ``("RF", "RH", "LF", "LH")``.
         time: sample times [s], shape (T,).
         plant: channel name -> array of shape (T, \\*channel.shape(n_legs)), see
-            ``exudyn_models.channels``.
+            ``apnc_plant.channels``.
         controller: row name of the table of variables -> array of shape (T,), (T, n_legs) for
             rows per leg or (T, n_legs - 1) for phase relations (phi12, phi13, ...): every input,
             output and local variable.

@@ -11,11 +11,11 @@ import numpy as np
 from apnc.loop.engines import plant_in
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuController
-from apnc.loop.plant import Plant, PlantError
 from apnc.loop.record import End, Record
 from apnc.loop.steps import Course
+from apnc_plant.options import PlantOptions
+from apnc_plant.plant import Plant, PlantError
 from build_fmu.build import host_fmu
-from exudyn_models.physics.options import PlantOptions
 
 Progress = Callable[[float, FmuController], None]
 Stop = Callable[[], bool]

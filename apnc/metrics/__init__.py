@@ -43,4 +43,4 @@ from apnc.metrics.strides import stance as stance
 from apnc.metrics.strides import stride_frequency as stride_frequency
 from apnc.metrics.strides import stride_length as stride_length
 from apnc.metrics.strides import touch_downs_per_stride as touch_downs_per_stride
-from exudyn_models.robot.model import GRAVITY as GRAVITY
+from apnc_plant.robot.model import GRAVITY as GRAVITY

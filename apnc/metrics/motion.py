@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from apnc.metrics.smoothing import Array, smooth
-from exudyn_models.robot.model import GRAVITY
+from apnc_plant.robot.model import GRAVITY
 
 MIN_SPEED: Final = 0.005
 """Path speed below which a robot stands [m/s]: Lilibot rocks in place at 2, walks from 19 mm/s."""

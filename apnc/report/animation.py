@@ -10,7 +10,7 @@ from apnc import metrics
 from apnc.report.encoding import packed
 from apnc.report.panels import Array, Run
 from apnc.report.skeleton import in_ground, leg_chains, trunk_corners
-from exudyn_models.ground import Surface
+from apnc_plant.ground import Surface
 
 REACH: Final = 4.5
 """Ground that is drawn around the robot, in diagonals of it from above."""

@@ -12,7 +12,7 @@ from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import Array, Run, line, stacked
 from apnc.report.skeleton import clearance, in_ground
-from exudyn_models.channels import JOINT_SIGNS, JOINTS
+from apnc_plant.channels import JOINT_SIGNS, JOINTS
 
 PI_TICKS: Final = {
     "tickvals": [-np.pi / 2, 0.0, np.pi / 2, np.pi, 3 * np.pi / 2],

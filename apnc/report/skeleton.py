@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from exudyn_models.ground import Surface
-from exudyn_models.robot import RobotDescription
+from apnc_plant.ground import Surface
+from apnc_plant.robot import RobotDescription
 
 Array = NDArray[np.float64]
 Plant = Mapping[str, Array]

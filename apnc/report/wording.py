@@ -11,7 +11,7 @@ from apnc.loop.experiment import Experiment
 from apnc.loop.record import End, Record
 from apnc.loop.steps import steps_text
 from apnc.summary import Summary
-from exudyn_models.conditions import Conditions
+from apnc_plant.conditions import Conditions
 
 DASH: Final = "–"
 _SPACE: Final = "\N{NO-BREAK SPACE}"

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, TypeVar
 
-from exudyn_models.robot import RobotDescription
+from apnc_plant.robot import RobotDescription
 
 Part = TypeVar("Part")
 

@@ -17,7 +17,7 @@ from apnc.studies.claims import Claim
 from apnc.studies.contenders import ALL, contender
 from apnc.studies.registry import METHODS, ROBOT, STUDIES, Entry
 from apnc.studies.rows import Row
-from exudyn_models.robot import RobotDescription
+from apnc_plant.robot import RobotDescription
 
 Value = str | float | int
 Chosen = Mapping[str, Sequence[Value]]

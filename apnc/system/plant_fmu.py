@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Final
 
 from apnc_core import __version__
+from apnc_plant.robot import ROBOTS, load_robot
 from build_fmu.package import zip_fmu
-from exudyn_models.robot import ROBOTS, load_robot
 
 MODEL_SUFFIX: Final = "Plant"
 

@@ -29,12 +29,12 @@ from apnc.loop.experiment import Experiment
 from apnc.system.plant_variables import UNITS, PlantVariable, plant_variables
 from apnc_core import __version__
 from apnc_core.schema import Causality
+from apnc_plant.channels import PLANT_CHANNELS, PlantError
+from apnc_plant.conditions import Conditions, named_conditions
+from apnc_plant.ground import Ground, Plane, Surface
+from apnc_plant.robot import load_robot
 from build_fmu.description_parts import ABOUT, STOP_TIME, number
-from exudyn_models.channels import PLANT_CHANNELS, PlantError
-from exudyn_models.conditions import Conditions, named_conditions
-from exudyn_models.ground import Ground, Plane, Surface
-from exudyn_models.physics.plant import Plant
-from exudyn_models.robot import load_robot
+from exudyn_models.plant import Plant
 
 ROBOT_FILE: Final = "robot.toml"
 """The robot, in the resources of the FMU."""

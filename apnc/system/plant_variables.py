@@ -7,9 +7,9 @@ from typing import Final
 
 from apnc_core.schema import Causality, Value
 from apnc_core.variables import row
+from apnc_plant.channels import PLANT_CHANNELS
+from apnc_plant.conditions import CONDITIONS
 from build_fmu.description_parts import UNITS as CONTROLLER_UNITS
-from exudyn_models.channels import PLANT_CHANNELS
-from exudyn_models.conditions import CONDITIONS
 
 NAMINGS: Final = ("structured", "flat")
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from apnc_plant.robot.model import Array
 from exudyn_models.physics.robot_forces import RobotForces
-from exudyn_models.robot.model import Array
 
 _STEP = 1e-6  # of the central differences [m, rad]
 

@@ -10,10 +10,10 @@ from __future__ import annotations
 from math import cos, sin, sqrt
 from typing import Any
 
-from exudyn_models.ground.surface import Integers
+from apnc_plant.ground.surface import Integers
+from apnc_plant.robot.model import Array
 from exudyn_models.physics.compiled import compiled
 from exudyn_models.physics.touching import call_touch
-from exudyn_models.robot.model import Array
 
 V3 = tuple[float, float, float]
 Rows = tuple[V3, V3, V3]

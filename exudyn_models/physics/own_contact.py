@@ -10,11 +10,11 @@ from typing import Any, Final
 
 import numpy as np
 
+from apnc_plant.coordinates import BASE, JOINT_SIGN
+from apnc_plant.robot.model import Array, Contact
+from exudyn_models.engine import items
 from exudyn_models.physics import forces
-from exudyn_models.physics.coordinates import BASE, JOINT_SIGN
-from exudyn_models.physics.engine import items
-from exudyn_models.physics.tree import Tree
-from exudyn_models.robot.model import Array, Contact
+from exudyn_models.tree import Tree
 
 GROUND_RADIUS: Final = 1e6
 """Radius of the ball that stands for the plane [m]: 13 um below it after 5 m, 0.1 nm resolution."""

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_models.ground.surface import Surface
+from apnc_plant.coordinates import BASE
+from apnc_plant.ground.surface import Surface
+from apnc_plant.robot.model import Array, RobotDescription
 from exudyn_models.physics import forces
-from exudyn_models.physics.coordinates import BASE
 from exudyn_models.physics.touching import touch_of
-from exudyn_models.robot.model import Array, RobotDescription
 
 HOLD_GAINS = (5000.0, 200.0, 50.0, 2.0)
 """Suspension of a held trunk: position [N/m], [N s/m], rotation [N m/rad], [N m s/rad].

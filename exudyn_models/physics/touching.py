@@ -10,7 +10,7 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
-from exudyn_models.ground.surface import Surface
+from apnc_plant.ground.surface import Surface
 from exudyn_models.physics.compiled import cached
 
 _REAL: Final = types.float64

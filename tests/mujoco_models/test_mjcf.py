@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from odd_robot import odd_robot
 
+from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.robot.links import links_of
 from exudyn_models.physics.forces import leg_points, rotation_rpy, servo_torque
 from exudyn_models.physics.robot_forces import leg_geometry
-from exudyn_models.robot import RobotDescription, load_robot
-from exudyn_models.robot.links import links_of
 
 mujoco: Any = pytest.importorskip("mujoco")
 

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from odd_robot import odd_robot
 
-from exudyn_models.channels import PlantError
-from exudyn_models.conditions import Conditions, named_conditions
-from exudyn_models.ground import Ground, Kerb, Plane, Surface
-from exudyn_models.physics.options import PlantOptions
-from exudyn_models.physics.plant import Plant as ExudynPlant
-from exudyn_models.robot import RobotDescription, load_robot
+from apnc_plant.channels import PlantError
+from apnc_plant.conditions import Conditions, named_conditions
+from apnc_plant.ground import Ground, Kerb, Plane, Surface
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import RobotDescription, load_robot
+from exudyn_models.plant import Plant as ExudynPlant
 
 pytest.importorskip("mujoco")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from exudyn_models.robot import RobotDescription, load_robot
+from apnc_plant.robot import RobotDescription, load_robot
 
 
 def odd_robot() -> RobotDescription:

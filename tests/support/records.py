@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import End, Record
-from exudyn_models.robot.file import load_robot
+from apnc_plant.robot.file import load_robot
 
 Array = NDArray[np.float64]
 

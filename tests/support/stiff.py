@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from exudyn_models.robot import ROBOTS
+from apnc_plant.robot import ROBOTS
 
 
 def stiff_robot() -> str:

@@ -174,7 +174,7 @@ HOSTS: Final[dict[str, Callable[[Path, float], tuple[Array, float]]]] = {
 
 def main(words: list[str]) -> None:
     host, folder, seconds, out = words
-    import exudyn_models.physics.plant  # noqa: F401  # takes seconds that are no simulation
+    import exudyn_models.plant  # noqa: F401  # takes seconds that are no simulation
 
     rows, wall = HOSTS[host](Path(folder), float(seconds))
     columns = np.cumsum([4, 4, 4])

@@ -13,8 +13,8 @@ from apnc.loop.engines import OWN_ENGINE, plant_in
 from apnc.loop.record import Record
 from apnc.studies.robots import changed, constant
 from apnc.studies.rows import Row
-from exudyn_models.physics.options import COMPILED, PlantOptions
-from exudyn_models.robot import RobotDescription, load_robot
+from apnc_plant.options import COMPILED, PlantOptions
+from apnc_plant.robot import RobotDescription, load_robot
 
 Array = NDArray[np.float64]
 

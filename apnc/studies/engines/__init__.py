@@ -22,7 +22,7 @@ from apnc.studies.rows import (
 from apnc.studies.statistics import rate
 from apnc.studies.study import WALK_S, Robot, Study
 from apnc.studies.table import markdown, middle
-from exudyn_models.physics.options import COMPILED
+from apnc_plant.options import COMPILED
 
 MI_VALUES: Final = tuple(round(0.06 + 0.02 * i, 2) for i in range(12))
 

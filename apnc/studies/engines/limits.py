@@ -18,7 +18,7 @@ from apnc.studies.robots import symmetric
 from apnc.studies.study import WALK_S
 from apnc.studies.table import markdown, middle
 from apnc.summary import Summary, summarise
-from exudyn_models.robot import RobotDescription, load_robot
+from apnc_plant.robot import RobotDescription, load_robot
 
 SEEDS: Final = 5
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from apnc.loop.engines import OWN_ENGINE, plant_in
 from apnc.studies.contact.measure import TICK, commands
-from exudyn_models.robot import load_robot
+from apnc_plant.robot import load_robot
 
 Array = NDArray[np.float64]
 

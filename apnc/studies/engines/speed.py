@@ -16,7 +16,7 @@ from apnc.studies.contact.measure import GRADUAL, TICK, commands, errors, robot,
 from apnc.studies.engines import ENGINES
 from apnc.studies.engines.figures import STYLES
 from apnc.studies.table import markdown
-from exudyn_models.physics.options import PlantOptions
+from apnc_plant.options import PlantOptions
 
 STEPS: Final = (8, 16, 32)
 """Integration steps per tick that are measured."""

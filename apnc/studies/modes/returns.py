@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from apnc.loop.experiment import Experiment
-from apnc.loop.plant import Plant
 from apnc.metrics.convergence import STRICT_TOLERANCE
 from apnc.metrics.phases import cpg_phase, wrap
 from apnc.studies.modes.stance import patterns
@@ -23,6 +22,7 @@ from apnc_core import oscillator
 from apnc_core.controller import Controller
 from apnc_core.enumerations import Method
 from apnc_core.interface import Inputs, Parameters
+from apnc_plant.plant import Plant
 
 Array = NDArray[np.float64]
 

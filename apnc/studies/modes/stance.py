@@ -19,9 +19,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from apnc_plant.robot import RobotDescription
 from exudyn_models.physics.forces import leg_points
 from exudyn_models.physics.robot_forces import leg_geometry
-from exudyn_models.robot import RobotDescription
 
 Array = NDArray[np.float64]
 

@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from apnc.studies.modes.stance import stance_of
-from exudyn_models.conditions import Conditions
+from apnc_plant.conditions import Conditions
+from apnc_plant.legged import side_offset
+from apnc_plant.robot import RobotDescription
+from apnc_plant.sensor.load import LoadSensor
+from apnc_plant.trace import Trace
 from exudyn_models.physics.forces import leg_points
-from exudyn_models.physics.legged import side_offset
 from exudyn_models.physics.robot_forces import leg_geometry
-from exudyn_models.robot import RobotDescription
-from exudyn_models.sensor.load import LoadSensor
-from exudyn_models.trace import Trace
 
 Array = NDArray[np.float64]
 

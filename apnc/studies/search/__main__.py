@@ -21,8 +21,8 @@ from apnc.studies.search.command import run, tracked
 from apnc.studies.search.costs import FAILED, costs, names
 from apnc.studies.search.knobs import Candidate, Knob, knobs_of, start
 from apnc.studies.workers import pool
+from apnc_plant.robot import load_robot
 from build_fmu.build import host_fmu
-from exudyn_models.robot import load_robot
 
 Array = NDArray[np.float64]
 

@@ -21,9 +21,9 @@ from apnc.studies.search.knobs import Candidate, built_robot, gains
 from apnc.studies.states.measure import STOPPED, judge
 from apnc.studies.states.timeline import Timeline
 from apnc.studies.study import COURSE_MI, WALK_MI
-from exudyn_models.conditions import Conditions
-from exudyn_models.robot import RobotDescription
-from exudyn_models.trace import Trace
+from apnc_plant.conditions import Conditions
+from apnc_plant.robot import RobotDescription
+from apnc_plant.trace import Trace
 
 Array = NDArray[np.float64]
 

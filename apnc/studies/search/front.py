@@ -25,7 +25,7 @@ from apnc.studies.search.knobs import Candidate, built_robot, gains, knobs_of, s
 from apnc.studies.study import COURSE_MI, WALK_MI
 from apnc.studies.workers import pool
 from apnc.summary import summarise
-from exudyn_models.robot import load_robot
+from apnc_plant.robot import load_robot
 
 MI_VALUES: Final = (0.06, WALK_MI, 0.10, 0.12, COURSE_MI, 0.20, 0.28, 0.34, 0.40)
 WALK_S: Final = 25.0

@@ -11,7 +11,7 @@ from apnc.studies.robots import changed, constant
 from apnc_core.interface import Parameters
 from apnc_core.schema import Causality, Type
 from apnc_core.variables import rows
-from exudyn_models.robot import Leg, RobotDescription, load_robot
+from apnc_plant.robot import Leg, RobotDescription, load_robot
 
 
 class Knob(NamedTuple):

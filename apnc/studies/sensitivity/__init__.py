@@ -12,7 +12,7 @@ from apnc.studies.robots import changed, constant
 from apnc.studies.rows import SPEED, STRICT, Row, cells_in, is_number, matching, values
 from apnc.studies.study import WALK_S, Study
 from apnc.studies.table import markdown, middle
-from exudyn_models.robot import RobotDescription, load_robot
+from apnc_plant.robot import RobotDescription, load_robot
 
 Change = Callable[[RobotDescription], RobotDescription]
 

@@ -17,7 +17,7 @@ from apnc.studies.robots import symmetric
 from apnc.studies.rows import STRICT, Row, values
 from apnc.studies.statistics import median, of_runs
 from apnc.studies.study import WALK_S, Study
-from exudyn_models.robot import load_robot
+from apnc_plant.robot import load_robot
 
 PARTED: Final = "parted_at_s"
 

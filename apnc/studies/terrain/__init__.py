@@ -26,7 +26,7 @@ from apnc.studies.plots import convergence
 from apnc.studies.rows import Row, successes, values
 from apnc.studies.statistics import compare_rates, compare_spread, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others
-from exudyn_models.ground import Ground
+from apnc_plant.ground import Ground
 
 ROUGHNESS: Final = (0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 1.0)
 OTHERS_ROUGHNESS: Final = (0.0, 0.4, 0.8, 0.9, 1.0)

@@ -22,9 +22,9 @@ from terminal import APNC, apnc
 from apnc import Gait, read_gait, write_gait
 from apnc.cli import main as command_line
 from apnc.studies.registry import STUDIES
-from exudyn_models.robot import load_robot
+from apnc_plant.robot import load_robot
 
-HEAVY = {"exudyn", "exudyn_models.ground", "fmpy", "loky", "numba", "numpy", "plotly", "scipy"}
+HEAVY = {"exudyn", "apnc_plant.ground", "fmpy", "loky", "numba", "numpy", "plotly", "scipy"}
 
 
 def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:

@@ -31,7 +31,7 @@ def test_ctrl_c_in_an_endless_walk_keeps_what_was_recorded(tmp_path: Path) -> No
     assert (tmp_path / "apnc-walk" / "report.html").is_file()
 
 
-@pytest.mark.parametrize("at", ["apnc.cli.console", "numpy", "fmpy", "exudyn_models.ground"])
+@pytest.mark.parametrize("at", ["apnc.cli.console", "numpy", "fmpy", "apnc_plant.ground"])
 def test_ctrl_c_during_the_imports_is_no_traceback(at: str, tmp_path: Path) -> None:
     command = (sys.executable, "-X", "importtime", "-m", "apnc", "walk", "--duration", "9")
     code, shown = interrupted(*command, at=f" {at}\r\n", cwd=tmp_path)

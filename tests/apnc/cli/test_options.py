@@ -90,7 +90,7 @@ def test_the_command_of_an_experiment_says_it_again(experiment: Experiment) -> N
 def test_robots_by_name_and_by_file(
     robot: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from exudyn_models.robot import ROBOTS  # noqa: PLC0415
+    from apnc_plant.robot import ROBOTS  # noqa: PLC0415
 
     monkeypatch.chdir(tmp_path)
     Path("own.toml").write_text((ROBOTS / "lilibot.toml").read_text())
@@ -132,7 +132,7 @@ def test_short_forms_of_the_ground() -> None:
 def test_what_does_not_fit_is_said_before_the_run(
     words: list[str], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from exudyn_models.robot import ROBOTS  # noqa: PLC0415
+    from apnc_plant.robot import ROBOTS  # noqa: PLC0415
 
     monkeypatch.chdir(tmp_path)
     write_gait(Gait(("RF", "RH", "LF", "LH"), (3.1, 3.1, 0.0)), Path("gait.json"))

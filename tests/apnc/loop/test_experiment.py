@@ -138,7 +138,7 @@ def test_the_key_sees_the_code(monkeypatch: pytest.MonkeyPatch) -> None:
     [
         ("apnc/loop/simulate.py", True),
         ("apnc/studies/mi/__init__.py", True),
-        ("exudyn_models/robot/robots/lilibot.toml", True),
+        ("apnc_plant/robot/robots/lilibot.toml", True),
         ("fmu_src/core/cpg.h", True),
         ("apnc_core/__init__.py", True),  # the version
         ("apnc/report/page.py", False),

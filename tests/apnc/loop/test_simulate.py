@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from apnc import Conditions, End, Experiment, Ground, Plane, simulate
-from apnc.loop.plant import PlantError
-from exudyn_models.conditions import CONDITIONS
-from exudyn_models.trace import Trace
+from apnc_plant.conditions import CONDITIONS
+from apnc_plant.plant import PlantError
+from apnc_plant.trace import Trace
 
 LEGS = ("RF", "RH", "LF", "LH")
 

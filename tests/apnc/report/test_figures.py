@@ -16,7 +16,7 @@ from apnc.report import figures, theme
 from apnc.report.figure import Figure
 from apnc.report.panels import Run
 from apnc.summary import summarise
-from exudyn_models.ground import Ground, Kerb, Plane, Surface
+from apnc_plant.ground import Ground, Kerb, Plane, Surface
 
 Array = NDArray[np.float64]
 PHASES = (0.5, 1.5, 2.5)

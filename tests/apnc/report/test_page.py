@@ -20,8 +20,8 @@ from apnc.report.samples import SHOWN
 from apnc.report.skeleton import leg_chains, trunk_corners
 from apnc.report.wording import facts, heading, rows, verdicts
 from apnc.summary import Summary, summarise
-from exudyn_models.conditions import Conditions
-from exudyn_models.ground import Ground
+from apnc_plant.conditions import Conditions
+from apnc_plant.ground import Ground
 
 KEYS = {
     *("gait", "phi", "speed", "path", "trunk", "clearance", "grf", "cpg"),

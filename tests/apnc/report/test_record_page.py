@@ -13,7 +13,7 @@ from apnc.loop.record import column_names
 from apnc.report.figures import all_figures
 from apnc.report.panels import Run
 from apnc.summary import summarise
-from exudyn_models.channels import JOINT_SIGNS
+from apnc_plant.channels import JOINT_SIGNS
 
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 

@@ -23,8 +23,8 @@ from apnc.studies.engine import run_study, run_trial
 from apnc.studies.rows import Row
 from apnc.studies.store import Store, place_of
 from apnc.studies.study import Study, Trial
+from apnc_plant.robot import ROBOTS
 from build_fmu.build import host_fmu
-from exudyn_models.robot import ROBOTS
 
 SHORT: dict[str, Any] = {"trials": 1, "duration": 1.0, "chosen": {"mi": [0.08]}}
 

@@ -17,7 +17,7 @@ from apnc.studies.engine import grid_of
 from apnc.studies.registry import STUDIES, load, names_of
 from apnc.studies.study import Trial
 from apnc_core.enumerations import ForwardModel
-from exudyn_models.robot import load_robot
+from apnc_plant.robot import load_robot
 
 LILIBOT = load_robot("lilibot")
 

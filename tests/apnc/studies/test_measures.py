@@ -19,7 +19,7 @@ from apnc.studies.engine import measured
 from apnc.studies.rows import Row
 from apnc.studies.states.measure import as_paper_says, judge, measure
 from apnc.studies.states.timeline import TIMELINE, Timeline
-from exudyn_models.physics.options import PlantOptions
+from apnc_plant.options import PlantOptions
 
 Array = NDArray[np.float64]
 PRONK = (0.0, 0.0, 0.0)

@@ -22,7 +22,7 @@ from apnc.studies.robots import symmetric
 from apnc_core import oscillator
 from apnc_core.enumerations import Method
 from apnc_core.interface import Parameters
-from exudyn_models.robot import load_robot
+from apnc_plant.robot import load_robot
 
 K = 3000.0
 WEIGHT = 36.0

@@ -46,7 +46,7 @@ from apnc.studies.search.front import (
     unbeaten,
 )
 from apnc.studies.search.knobs import KNOBS, OWN, built_robot, gains, knobs_of, start
-from exudyn_models.robot import ROBOTS, load_robot
+from apnc_plant.robot import ROBOTS, load_robot
 
 Array = NDArray[np.float64]
 

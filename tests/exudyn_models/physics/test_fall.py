@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_models.channels import PlantError
-from exudyn_models.ground import Kerb, Plane, Surface
+from apnc_plant.channels import PlantError
+from apnc_plant.ground import Kerb, Plane, Surface
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import Body, RobotDescription, load_robot
 from exudyn_models.physics.forces import rotation_rpy
-from exudyn_models.physics.options import PlantOptions
-from exudyn_models.physics.plant import Plant
-from exudyn_models.robot import Body, RobotDescription, load_robot
+from exudyn_models.plant import Plant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")

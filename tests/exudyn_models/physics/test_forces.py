@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_models.ground import Ground, Kerb, Plane, Surface, Waves
-from exudyn_models.ground.obstacles import TILE
-from exudyn_models.physics.coordinates import BASE
+from apnc_plant.coordinates import BASE
+from apnc_plant.ground import Ground, Kerb, Plane, Surface, Waves
+from apnc_plant.ground.obstacles import TILE
+from apnc_plant.robot import load_robot
 from exudyn_models.physics.forces import contact_force
-from exudyn_models.physics.plant import Plant
 from exudyn_models.physics.robot_forces import RobotForces
-from exudyn_models.robot import load_robot
+from exudyn_models.plant import Plant
 
 ROBOT = load_robot("lilibot")
 UP = (0.0, 0.0, 1.0)

@@ -14,10 +14,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from exudyn_models.physics.engine import exu, items
-from exudyn_models.physics.options import PlantOptions
-from exudyn_models.physics.plant import Plant, _solver_settings
-from exudyn_models.robot import load_robot
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import load_robot
+from exudyn_models.engine import exu, items
+from exudyn_models.plant import Plant, _solver_settings
 
 TICK = 1 / 60
 STEP = PlantOptions().step
@@ -175,9 +175,9 @@ def test_momentum_changes_by_the_forces_that_act() -> None:
 
 def test_the_warning_stays_off_stdout_and_what_exudyn_says_else_does_not() -> None:
     code = (
-        "from exudyn_models.physics.plant import Plant\n"
-        "from exudyn_models.physics.engine import exu\n"
-        "from exudyn_models.robot import load_robot\n"
+        "from exudyn_models.plant import Plant\n"
+        "from exudyn_models.engine import exu\n"
+        "from apnc_plant.robot import load_robot\n"
         "import numpy as np\n"
         "Plant(load_robot('lilibot')).advance(np.zeros(4), np.zeros(4), 0.1)\n"
         "exu.Print('heard')\n"

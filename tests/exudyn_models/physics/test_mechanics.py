@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_models.ground import Ground
-from exudyn_models.physics.coordinates import BASE
-from exudyn_models.physics.options import PlantOptions
-from exudyn_models.physics.plant import Plant
-from exudyn_models.robot import RobotDescription, load_robot
+from apnc_plant.coordinates import BASE
+from apnc_plant.ground import Ground
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import RobotDescription, load_robot
+from exudyn_models.plant import Plant
 
 TICK = 1 / 60
 GRAVITY = 9.81

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from exudyn_models.ground import Ground, Kerb, Plane, Surface
-from exudyn_models.physics.options import PlantOptions
-from exudyn_models.physics.plant import Plant
-from exudyn_models.robot import load_robot
+from apnc_plant.ground import Ground, Kerb, Plane, Surface
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import load_robot
+from exudyn_models.plant import Plant
 
 LAWS = ("compiled", "exudyn")
 ROBOT = load_robot("lilibot")

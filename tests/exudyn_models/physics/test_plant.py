@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from exudyn_models.channels import PLANT_CHANNELS, PlantError
-from exudyn_models.physics.engine import exu
-from exudyn_models.physics.options import PlantOptions
-from exudyn_models.physics.plant import Plant
-from exudyn_models.robot import ROBOTS, RobotDescription, load_robot
+from apnc_plant.channels import PLANT_CHANNELS, PlantError
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
+from exudyn_models.engine import exu
+from exudyn_models.plant import Plant
 
 TICK = 1 / 60
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])

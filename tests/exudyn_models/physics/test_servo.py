@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import RobotDescription, Servo, load_robot
 from exudyn_models.physics.forces import servo_torque
-from exudyn_models.physics.options import PlantOptions
-from exudyn_models.physics.plant import Plant
-from exudyn_models.robot import RobotDescription, Servo, load_robot
+from exudyn_models.plant import Plant
 
 SERVO = Servo(
     stiffness=20.0, damping=0.5, stall_torque=4.0, no_load_speed=5.0, reflected_inertia=1.0

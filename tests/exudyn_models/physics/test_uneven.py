@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from exudyn_models.ground import Kerb, Surface, Waves
-from exudyn_models.physics.plant import Plant
-from exudyn_models.robot import load_robot
+from apnc_plant.ground import Kerb, Surface, Waves
+from apnc_plant.robot import load_robot
+from exudyn_models.plant import Plant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")

@@ -1,0 +1,265 @@
+"""What every ground is: a surface that a ball can touch."""
+
+from __future__ import annotations
+
+import json
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
+from typing import Any, ClassVar, Final, get_type_hints
+
+import numpy as np
+from numpy.typing import NDArray
+
+from apnc_plant.robot.model import Array
+
+Integers = NDArray[np.int64]
+
+GRID: Final = 0.1
+"""Distance between the lines a ground is drawn with [m]."""
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """What the touch function of a ground reads.
+
+    Args:
+        reals: numbers of any meaning, shape (any,).
+        integers: whole numbers of any meaning, shape (any,).
+        contacts: the most places at which a ball touches at a time.
+    """
+
+    reals: Array
+    integers: Integers
+    contacts: int = 4
+
+
+@dataclass(frozen=True)
+class Surface(ABC):
+    """A ground: how high it is and where a ball touches it, in its own frame.
+
+    The frame is the world's, turned about y by ``slope``; z points out of the ground, and the plane
+    z = 0 is the ground without what is special about it. A new ground is a subclass with ``kind``,
+    :attr:`top`, :meth:`elevation`, :meth:`numbers` and :meth:`touch`, and its entry in ``GROUNDS``.
+
+    Args:
+        slope: angle by which the ground rises along x [rad].
+
+    Raises:
+        ValueError: a value out of range.
+    """
+
+    kind: ClassVar[str]
+
+    slope: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        self._require("slope", abs(self.slope) < math.pi / 2, "less than a right angle [rad]")
+
+    def _require(self, name: str, fits: bool, allowed: str) -> None:
+        if not fits:
+            raise ValueError(f"{name} is {getattr(self, name)}; allowed: {allowed}")
+
+    @property
+    @abstractmethod
+    def top(self) -> float:
+        """Height over the plane that no point of the ground exceeds [m]; 0 or more."""
+
+    @property
+    def flat(self) -> bool:
+        """Whether the ground is the plane z = 0 and nothing else."""
+        return False
+
+    @abstractmethod
+    def elevation(self, x: Array, y: Array) -> Array:
+        """Height over the plane [m].
+
+        Args:
+            x, y: places in the frame of the ground [m], shapes that broadcast.
+        """
+
+    @abstractmethod
+    def numbers(self, radius: float) -> Numbers:
+        """What :meth:`touch` reads for balls of a radius up to ``radius`` [m]."""
+
+    @staticmethod
+    @abstractmethod
+    def touch(
+        x: float, y: float, z: float, radius: float, reals: Any, integers: Any, found: Any
+    ) -> int:
+        """Where a ball touches the ground. Compiled by numba: plain arithmetic and ``math`` only.
+
+        Args:
+            x, y, z: centre of the ball in the frame of the ground [m].
+            radius: of the ball [m]; 0 for a point.
+            reals, integers: of :meth:`numbers`, flat.
+            found: normal (x, y, z), which points out of the ground, and depth [m], above 0, of
+                every place of contact, one after the other; written here.
+
+        Returns:
+            Number of places. Must be 0 where z is ``radius + top`` or more.
+        """
+
+    def rotation(self) -> Array:
+        """Rotation from ground to world, shape (3, 3); its last column is the normal."""
+        c, s = math.cos(self.slope), math.sin(self.slope)
+        return np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
+
+    def contacts(self, place: Sequence[float], radius: float) -> Array:
+        """Normals (x, y, z) and depths [m] of a ball's contacts, shape (contacts, 4).
+
+        Args:
+            place: centre of the ball in the frame of the ground [m].
+            radius: of the ball [m].
+        """
+        x, y, z = (float(value) for value in place)
+        return self._found(x, y, z, radius, self.numbers(radius))
+
+    def _found(self, x: float, y: float, z: float, radius: float, numbers: Numbers) -> Array:
+        found = np.full(4 * numbers.contacts, np.nan)
+        count = self.touch(x, y, z, radius, numbers.reals, numbers.integers, found)
+        return found.reshape(-1, 4)[:count]
+
+    def rest_height(self, x: float, y: float, radius: float) -> float:
+        """Height of a ball's centre over the plane when it just touches what is below it [m].
+
+        Args:
+            x, y: place of the centre in the frame of the ground [m].
+            radius: of the ball [m].
+        """
+        numbers = self.numbers(radius)
+        low, high = float(self.elevation(np.array(x), np.array(y))), self.top + radius
+        while low < (middle := (low + high) / 2.0) < high:
+            if len(self._found(x, y, middle, radius, numbers)):
+                low = middle
+            else:
+                high = middle
+        return high
+
+    def lines(self, x0: float, x1: float, y0: float, y1: float) -> list[Array]:
+        """Polylines that draw the ground between two corners.
+
+        Args:
+            x0, x1, y0, y1: corners in the frame of the ground [m].
+
+        Returns:
+            Points on the ground in its frame [m], each line of shape (points, 3).
+
+        Points are 1 cm apart, so a vertical face is drawn as a slope of 1 cm: a ground with faces
+        overrides :meth:`_line` and adds both ends of each, as ``Kerb`` does, or ``lines`` as a
+        whole, as ``Ground`` does.
+        """
+        lines = [self._line(self._stations(x0, x1), [y]) for y in _multiples(y0, y1)]
+        return lines + [
+            self._line([x], _between(y0, y1, self._spacing)) for x in _multiples(x0, x1)
+        ]
+
+    @property
+    def _spacing(self) -> float:
+        return math.inf if self.flat else GRID / 10.0
+
+    def _stations(self, x0: float, x1: float) -> Array:
+        """Places along x at which a line along x has its points [m]."""
+        return _between(x0, x1, self._spacing)
+
+    def _line(self, x: Any, y: Any) -> Array:
+        xs, ys = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
+        return np.column_stack([xs, ys, self.elevation(xs, ys)])
+
+    def text(self) -> str:
+        """Kind and fields that are not the default, as :func:`surface` reads them."""
+        default = type(self)()
+        words = [
+            f"{f.name}={':'.join(map(str, value)) if isinstance(value, tuple) else value}"
+            for f in fields(self)
+            if (value := getattr(self, f.name)) != getattr(default, f.name)
+        ]
+        return ":".join(filter(None, (self.kind, ",".join(words))))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Kind and fields as plain data; :func:`from_dict` makes the ground of it again."""
+        return {"kind": self.kind} | {
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in asdict(self).items()
+        }
+
+
+GROUNDS: Final[dict[str, type[Surface]]] = {}
+"""Every kind of ground by name."""
+
+
+def from_dict(data: Mapping[str, Any]) -> Surface:
+    """A ground of its kind and fields; a field that is left out has its default.
+
+    Args:
+        data: as :meth:`Surface.to_dict` gives it.
+
+    Raises:
+        ValueError: no such kind or field, or a value of the wrong type or out of range.
+    """
+    kind = data.get("kind")
+    if kind not in GROUNDS:
+        raise ValueError(f"ground {kind!r} is not one of {', '.join(GROUNDS)}")
+    cls = GROUNDS[kind]
+    types = {f.name: get_type_hints(cls)[f.name] for f in fields(cls)}
+    values = {name: value for name, value in data.items() if name != "kind"}
+    for name in values:
+        if name not in types:
+            raise ValueError(f"ground '{kind}' has no {name!r}; it has {', '.join(types)}")
+    try:
+        return cls(**{name: _typed(name, types[name], v) for name, v in values.items()})
+    except ValueError as error:
+        raise ValueError(f"ground '{kind}': {error}") from None
+
+
+def surface(text: str) -> Surface:
+    """``"kerb:at=0.5,height=0.006"`` -> a ground; numbers of a list are parted by a colon.
+
+    Args:
+        text: kind, then a colon and fields, parted by commas; those left out have their defaults.
+
+    Raises:
+        ValueError: as :func:`from_dict`.
+    """
+    kind, _, rest = text.partition(":")
+    data: dict[str, Any] = {"kind": kind.strip()}
+    for item in filter(None, rest.split(",")):
+        name, _, value = item.partition("=")
+        parts = [_number(part) for part in value.split(":")]
+        data[name.strip()] = parts if len(parts) > 1 else parts[0]
+    return from_dict(data)
+
+
+def _number(text: str) -> object:
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError:
+        return text
+
+
+def _typed(name: str, kind: Any, value: Any) -> Any:
+    plain = isinstance(value, int | float) and not isinstance(value, bool)
+    if kind is int:
+        if plain and math.isfinite(value) and value == int(value):
+            return int(value)
+        raise ValueError(f"{name} is {value!r}; allowed: a whole number")
+    if kind is float:
+        if plain and math.isfinite(value):
+            return float(value)
+        raise ValueError(f"{name} is {value!r}; allowed: a finite number")
+    kinds = kind.__args__
+    if isinstance(value, list | tuple) and len(value) == len(kinds):
+        return tuple(_typed(name, k, v) for k, v in zip(kinds, value, strict=True))
+    raise ValueError(f"{name} is {value!r}; allowed: {len(kinds)} numbers")
+
+
+def _multiples(low: float, high: float) -> Array:
+    """Multiples of ``GRID`` between two places [m]."""
+    return np.asarray(GRID * np.arange(math.ceil(low / GRID), math.floor(high / GRID) + 1.0))
+
+
+def _between(low: float, high: float, spacing: float) -> Array:
+    """Places from ``low`` to ``high``, both included, at most ``spacing`` apart [m]."""
+    return np.linspace(low, high, max(1, math.ceil((high - low) / spacing)) + 1)

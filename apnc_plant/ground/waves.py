@@ -1,0 +1,111 @@
+"""A field of sine waves."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, ClassVar, Final
+
+import numpy as np
+
+from apnc_plant.ground.surface import Numbers, Surface
+from apnc_plant.robot.model import Array
+
+STEEPEST: Final = 1.0
+"""Greatest slope along x or y that is allowed [1]: 45 degrees."""
+
+TIGHTEST: Final = 0.5
+"""Greatest radius of a ball over the smallest radius of curvature [1]: it touches at one place."""
+
+
+@dataclass(frozen=True)
+class Waves(Surface):
+    """z = amplitude / 2 (sin(k x) + sin(k y)) with k = 2 pi / wavelength, in all directions.
+
+    Args:
+        slope: angle by which the whole ground rises along x [rad].
+        amplitude: greatest height over the plane, and depth below it [m].
+        wavelength: of both waves [m].
+
+    Raises:
+        ValueError: a value out of range, or waves steeper than 45 degrees.
+
+    A ball touches at the point of the surface nearest to its centre, found by Newton's method to
+    1e-9 m; the depth is then exact to 1e-15 m, since the distance is least there. For one place of
+    contact the valleys must be wide: a ball of more than half their radius of curvature is refused.
+    """
+
+    kind: ClassVar[str] = "waves"
+
+    amplitude: float = 0.005
+    wavelength: float = 0.4
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        super().__post_init__()
+        self._require("wavelength", 0.0 < self.wavelength < math.inf, "above 0 [m]")
+        steepest = STEEPEST * 2.0 / self._wavenumber
+        allowed = f"from 0 to {steepest:.4g} at this wavelength [m]"
+        self._require("amplitude", 0.0 <= self.amplitude <= steepest, allowed)
+
+    @property
+    def _wavenumber(self) -> float:
+        return 2.0 * math.pi / self.wavelength
+
+    @property
+    def top(self) -> float:
+        """Height of the crests [m]."""
+        return self.amplitude
+
+    def elevation(self, x: Array, y: Array) -> Array:
+        """Height of the waves [m]."""
+        k = self._wavenumber
+        return np.asarray(self.amplitude / 2.0 * (np.sin(k * x) + np.sin(k * y)))
+
+    def numbers(self, radius: float) -> Numbers:
+        """Half the amplitude [m] and the wavenumber [rad/m].
+
+        Raises:
+            ValueError: the ball is too large for the valleys.
+        """
+        curvature = self.amplitude / 2.0 * self._wavenumber**2
+        if radius * curvature > TIGHTEST:
+            raise ValueError(
+                f"amplitude is {self.amplitude}; allowed: up to "
+                f"{2.0 * TIGHTEST / (radius * self._wavenumber**2):.4g} "
+                f"at this wavelength and a ball of radius {radius} [m]"
+            )
+        return Numbers(
+            np.array([self.amplitude / 2.0, self._wavenumber]), np.zeros(1, np.int64), contacts=1
+        )
+
+    @staticmethod
+    def touch(
+        x: float, y: float, z: float, radius: float, reals: Any, integers: Any, found: Any
+    ) -> int:
+        """The nearest point (u, v, h(u, v)) of the surface, by Newton's method."""
+        a, k = reals[0], reals[1]
+        u, v = x, y
+        for _ in range(20):
+            below = a * (math.sin(k * u) + math.sin(k * v)) - z
+            hu, hv = a * k * math.cos(k * u), a * k * math.cos(k * v)
+            gu, gv = u - x + below * hu, v - y + below * hv
+            huu = 1.0 + hu * hu - below * a * k * k * math.sin(k * u)
+            hvv = 1.0 + hv * hv - below * a * k * k * math.sin(k * v)
+            huv = hu * hv
+            determinant = huu * hvv - huv * huv
+            du = (hvv * gu - huv * gv) / determinant
+            dv = (huu * gv - huv * gu) / determinant
+            u -= du
+            v -= dv
+            if abs(du) + abs(dv) < 1e-9:
+                break
+        hu, hv = a * k * math.cos(k * u), a * k * math.cos(k * v)
+        length = math.sqrt(1.0 + hu * hu + hv * hv)
+        nx, ny, nz = -hu / length, -hv / length, 1.0 / length
+        h = a * (math.sin(k * u) + math.sin(k * v))
+        depth = radius - ((x - u) * nx + (y - v) * ny + (z - h) * nz)
+        if depth <= 0.0:
+            return 0
+        found[0], found[1], found[2], found[3] = nx, ny, nz, depth
+        return 1

@@ -1,0 +1,48 @@
+"""What the master needs of a robot; any engine, or another FMU, can stand behind it."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from apnc_plant.channels import PlantError
+from apnc_plant.conditions import Conditions
+from apnc_plant.trace import Trace
+
+__all__ = ["Plant", "PlantError"]
+
+Array = NDArray[np.float64]
+
+
+class Plant(Protocol):
+    """A robot at its start; ``exudyn_models.plant.Plant`` is one."""
+
+    @property
+    def legs(self) -> tuple[str, ...]:
+        """Names of the legs in FMU order."""
+
+    @property
+    def mass(self) -> float:
+        """Total mass with payload [kg]."""
+
+    @property
+    def fell(self) -> bool:
+        """Whether the robot lies or has tipped over."""
+
+    def grf(self) -> Array:
+        """Load of each foot as its sensor shows it now [N], shape (n_legs,)."""
+
+    def set_conditions(self, conditions: Conditions) -> None:
+        """Change what is wrong with the robot, from now on."""
+
+    def advance(self, theta_hip: Array, theta_knee: Array, duration: float) -> None:
+        """Follow joint commands [rad], shape (n_legs,), for a time [s].
+
+        Raises:
+            PlantError: the motion broke down.
+        """
+
+    def trace(self) -> Trace:
+        """A recorder of every channel in ``apnc_plant.channels.PLANT_CHANNELS``."""

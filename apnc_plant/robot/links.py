@@ -1,0 +1,38 @@
+"""The links of a leg as a tree of joints has them, whatever it is written for."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from apnc_plant.robot.model import Leg, MassProperties, Vector3
+
+
+class Link(NamedTuple):
+    """A link and the joint that moves it; its frame sits at the joint.
+
+    Args:
+        name: ``"hip_link"``, ``"femur_link"`` or ``"tibia_link"``.
+        joint: ``"abduction"``, ``"hip"`` or ``"knee"``.
+        place: of the joint in the frame of the link before, the trunk for the first [m].
+        pitch: rotation about y from that frame to the link's in the reference pose [rad].
+        axis: of the joint, so that a positive angle is what ``apnc_plant.channels`` calls so.
+        body: mass properties in the frame of the link.
+    """
+
+    name: str
+    joint: str
+    place: Vector3
+    pitch: float
+    axis: Vector3
+    body: MassProperties
+
+
+def links_of(leg: Leg) -> tuple[Link, Link, Link]:
+    """The links of a leg from the trunk outward; the foot is ``tibia_length`` below the last."""
+    forward, down = (0.0, -1.0, 0.0), (0.0, 0.0, -leg.femur_length)
+    hip, femur, tibia = (leg.mass_properties(link) for link in (leg.hip, leg.femur, leg.tibia))
+    return (
+        Link("hip_link", "abduction", leg.mount, 0.0, (1.0, 0.0, 0.0), hip),
+        Link("femur_link", "hip", leg.outward(leg.hip_offset), leg.femur_angle, forward, femur),
+        Link("tibia_link", "knee", down, -leg.tibia_angle, forward, tibia),
+    )

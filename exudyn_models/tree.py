@@ -1,0 +1,150 @@
+"""The robot as one Exudyn kinematic tree in minimal coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import cos, sin
+from typing import Any, Final
+
+import numpy as np
+
+from apnc_plant.coordinates import BASE
+from apnc_plant.robot.links import links_of
+from apnc_plant.robot.model import Array, Leg, MassProperties, RobotDescription, Vector3
+from exudyn_models.engine import exu, items
+
+MASSLESS: Final = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
+
+Forces = Callable[[Any, float, int, list[float], list[float]], list[float]]
+"""(system, time [s], item, coordinates, speeds) -> generalized forces."""
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Item numbers of the tree in its Exudyn system.
+
+    Args:
+        feet: one marker per leg, at the centre of the foot ball.
+    """
+
+    feet: tuple[Any, ...]
+
+
+@dataclass
+class _Links:
+    """Rows of the tree as they are collected, one entry per coordinate."""
+
+    types: list[Any] = field(default_factory=list)
+    parents: list[int] = field(default_factory=list)
+    rotations: list[Array] = field(default_factory=list)
+    offsets: list[Array] = field(default_factory=list)
+    masses: list[float] = field(default_factory=list)
+    inertias: list[Array] = field(default_factory=list)
+    coms: list[Array] = field(default_factory=list)
+
+    def add(
+        self,
+        joint: Any,
+        parent: int,
+        offset: Vector3 = (0.0, 0.0, 0.0),
+        pitch: float = 0.0,
+        body: MassProperties = MASSLESS,
+    ) -> int:
+        self.types.append(joint)
+        self.parents.append(parent)
+        self.offsets.append(np.array(offset))
+        self.rotations.append(_rotation_y(pitch))
+        self.masses.append(body.mass)
+        self.inertias.append(body.inertia)
+        self.coms.append(body.com)
+        return len(self.parents) - 1
+
+
+def add_tree(
+    mbs: Any,
+    robot: RobotDescription,
+    trunk: MassProperties,
+    gravity: float,
+    start: Array,
+    forces: Forces,
+) -> Tree:
+    """Add trunk, legs and reflected rotor inertia to an Exudyn system.
+
+    Args:
+        mbs: the system.
+        robot: the robot.
+        trunk: mass properties of the trunk with what it carries.
+        gravity: downward acceleration [m/s^2].
+        start: initial coordinates, shape (6 + 3 n_legs,), see
+            ``coordinates``.
+        forces: called by Exudyn for the generalized forces besides gravity.
+    """
+    links = _Links()
+    base = _add_base(links, trunk)
+    tibias = [_add_leg(links, leg, base) for leg in robot.legs]
+    size = len(links.parents)
+    node = mbs.AddNode(
+        items.NodeGenericODE2(
+            referenceCoordinates=np.zeros(size),
+            initialCoordinates=start,
+            initialCoordinates_t=np.zeros(size),
+            numberOfODE2Coordinates=size,
+        )
+    )
+    tree = mbs.AddObject(_tree_object(links, node, gravity, forces))
+    _add_reflected_inertia(mbs, node, size, robot.servo.reflected_inertia)
+    feet = tuple(
+        mbs.AddMarker(
+            items.MarkerKinematicTreeRigid(
+                objectNumber=tree, linkNumber=link, localPosition=[0.0, 0.0, -leg.tibia_length]
+            )
+        )
+        for link, leg in zip(tibias, robot.legs, strict=True)
+    )
+    return Tree(feet)
+
+
+def _add_base(links: _Links, trunk: MassProperties) -> int:
+    kind = exu.JointType
+    link = -1
+    for joint in (kind.PrismaticX, kind.PrismaticY, kind.PrismaticZ, kind.RevoluteZ):
+        link = links.add(joint, link)
+    link = links.add(kind.RevoluteY, link)
+    return links.add(kind.RevoluteX, link, body=trunk)
+
+
+def _add_leg(links: _Links, leg: Leg, trunk: int) -> int:
+    at = trunk
+    for link in links_of(leg):
+        about_x = link.axis[0] != 0.0
+        joint = exu.JointType.RevoluteX if about_x else exu.JointType.RevoluteY
+        at = links.add(joint, at, link.place, link.pitch, link.body)
+    return at
+
+
+def _tree_object(links: _Links, node: Any, gravity: float, forces: Forces) -> Any:
+    return items.ObjectKinematicTree(
+        nodeNumber=node,
+        gravity=[0.0, 0.0, -gravity],
+        jointTypes=links.types,
+        linkParents=links.parents,
+        jointTransformations=exu.Matrix3DList(links.rotations),
+        jointOffsets=exu.Vector3DList(links.offsets),
+        linkInertiasCOM=exu.Matrix3DList(links.inertias),
+        linkCOMs=exu.Vector3DList(links.coms),
+        linkMasses=links.masses,
+        forceUserFunction=forces,
+    )
+
+
+def _add_reflected_inertia(mbs: Any, node: Any, size: int, inertia: float) -> None:
+    # The tree has no field for rotor inertia; a second object on the same node adds it to M.
+    diagonal = np.zeros(size)
+    diagonal[BASE:] = inertia
+    mbs.AddObject(items.ObjectGenericODE2(nodeNumbers=[node], massMatrix=np.diag(diagonal)))
+
+
+def _rotation_y(angle: float) -> Array:
+    c, s = cos(angle), sin(angle)
+    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])

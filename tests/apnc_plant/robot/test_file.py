@@ -1,0 +1,217 @@
+"""Robot files: what is read, and what is refused."""
+
+import math
+import pickle
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from apnc_plant.robot import ROBOTS, Contact, RobotDescriptionError, Sensor, load_robot
+
+LILIBOT = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
+
+
+def test_lilibot_has_the_published_mass_and_leg_order() -> None:
+    robot = load_robot("lilibot")
+    assert robot.mass == pytest.approx(2.5, abs=1e-12)
+    assert robot.weight == pytest.approx(24.525)
+    assert [leg.name for leg in robot.legs] == ["RF", "RH", "LF", "LH"]
+    assert [np.sign(leg.mount[:2]).tolist() for leg in robot.legs] == [
+        [1, -1],
+        [-1, -1],
+        [1, 1],
+        [-1, 1],
+    ]
+
+
+def test_box_inertia() -> None:
+    trunk = load_robot("lilibot").trunk.body
+    expected = 1.3 / 12 * np.array([0.16**2 + 0.06**2, 0.26**2 + 0.06**2, 0.26**2 + 0.16**2])
+    np.testing.assert_allclose(trunk.inertia(), np.diag(expected))
+
+
+def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
+    path = tmp_path / "heavy.toml"
+    path.write_text(LILIBOT.replace("mass = 1.3", "mass = 2.55"), encoding="utf-8")
+    assert load_robot(str(path)).mass == pytest.approx(3.75)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("mass = 1.3", "mass = -1.3", "trunk.mass is -1.3; allowed: a finite number above 0 [kg]"),
+        ("mass = 1.3", "mass = 0.0", "trunk.mass is 0.0; allowed: a finite number above 0"),
+        ("mass = 1.3", "mass = nan", "trunk.mass is nan"),
+        ("mass = 1.3", 'mass = "1.3"', "trunk.mass is '1.3'"),
+        ("mass = 1.3", "mass = true", "trunk.mass is True"),
+        ("mass = 1.3", "", "trunk.mass is missing"),
+        ("mass = 1.3", "mass = 1.3\nmas = 2.0", "trunk.mas is 2.0; allowed: only"),
+        ("size = [0.26, 0.16, 0.06]", "size = [0.26, 0.16]", "trunk.size is [0.26, 0.16]"),
+        ("size = [0.26, 0.16, 0.06]", "size = [0.26, 0.0, 0.06]", "trunk.size"),
+        ("tibia_angle = 92.0", "tibia_angle = 920.0", "leg.tibia_angle is 920.0"),
+        (
+            'name = "RH"',
+            'name = "RF"',
+            "allowed: names that differ",
+        ),
+        ("[servo]", "[motor]", "motor is {"),
+        ("[sensor]\ndelay = ", "[sensor]\ndelay = -0.05 # ", "sensor.delay is -0.05"),
+    ],
+)
+def test_values_out_of_range_are_named(tmp_path: Path, old: str, new: str, expected: str) -> None:
+    path = tmp_path / "broken.toml"
+    assert old in LILIBOT
+    path.write_text(LILIBOT.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(RobotDescriptionError) as caught:
+        load_robot(str(path))
+    assert expected in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def written(tmp_path: Path, text: str) -> str:
+    path = tmp_path / "own.toml"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ('[[legs]]\nname = "RF"', '[[legs]]\nname = ""', "legs[1].name is ''; allowed: a name"),
+        ("mount = [-0.092, 0.066, 0.0]", "", "legs[4].mount is missing; allowed: three finite"),
+        ("mount = [-0.092, 0.066, 0.0]", "mount = [0, 1]", "legs[4].mount is [0, 1]"),
+        (
+            "mount = [-0.092, 0.066, 0.0]",
+            "mount = [-0.092, 0.066, 0.0]\nfemur = {mass = 0}",
+            "legs[4].femur.mass is 0; allowed: a finite number above 0 [kg]",
+        ),
+        ("femur_length = 0.070\n", "", "leg.femur_length is missing; allowed: a finite number"),
+        ("[leg.femur]\nmass = 0.12", "[leg.femur]", "leg.femur.mass is missing"),
+        (
+            "mount = [-0.092, 0.066, 0.0]",
+            "mount = [-0.092, -0.066, 0.0]",
+            "legs is '3 right (RF, RH, LH)'; allowed: 2 of 4 legs with y < 0",
+        ),
+        (
+            'component = "normal"',
+            'component = "all"',
+            "sensor.component is 'all'; allowed: normal or norm",
+        ),
+        ('name = "lilibot"', "", "name is ''; allowed: a name"),
+        ("[servo]", "[controller]\nxj = 1\n[servo]", "parameter 'xj' is not one of Ts, robot_w"),
+        ("[servo]", "[controller]\nxi = 7\n[servo]", "xi = 7; allowed: a number from 0 to 1"),
+        ("[servo]", "[controller]\nTs = 0.1\n[servo]", "controller.Ts is 0.1; allowed: param"),
+        ('name = "lilibot"', 'name = "a"\ncontroller = 3', "controller is 3; allowed: a table"),
+        ('name = "lilibot"', 'name = "a"\nheight = 3', "height is 3; allowed: only contact, contr"),
+        ("[servo]", "[servo]\nforce = 3", "servo.force is 3; allowed: only damping, latency"),
+    ],
+)
+def test_what_is_wrong_is_named_with_its_place(
+    tmp_path: Path, old: str, new: str, expected: str
+) -> None:
+    assert old in LILIBOT
+    with pytest.raises(RobotDescriptionError) as caught:
+        load_robot(written(tmp_path, LILIBOT.replace(old, new, 1)))
+    assert str(caught.value).startswith("robot file own.toml: ")
+    assert expected in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("legs", ["", "legs = []", "legs = 3", "legs = [1]"])
+def test_a_robot_without_legs_is_refused(tmp_path: Path, legs: str) -> None:
+    start, rest = LILIBOT.index("[[legs]]"), LILIBOT.index("[servo]")
+    text = legs + "\n" + LILIBOT[:start] + LILIBOT[rest:]
+    with pytest.raises(RobotDescriptionError, match=r"legs is .*; allowed: a list of tables"):
+        load_robot(written(tmp_path, text))
+
+
+def test_what_is_left_out_has_its_default(tmp_path: Path) -> None:
+    lines = LILIBOT[: LILIBOT.index("[sensor]")].splitlines()
+    optional = (
+        "center", "com_side_offset", "reflected_inertia", "latency", "slew_rate",
+        "damping_depth", "friction", "friction_speed",
+    )  # fmt: skip
+    text = "\n".join(line for line in lines if line.split(" ")[0] not in optional)
+    robot = load_robot(written(tmp_path, text))
+    assert robot.sensor == Sensor(0.0, 0.0, 0.0, "normal")
+    assert (robot.trunk.center, robot.trunk.com_side_offset) == ((0.0, 0.0, 0.0), 0.0)
+    assert robot.servo.reflected_inertia == robot.servo.latency == robot.servo.slew_rate == 0.0
+    assert replace(robot.contact, damping=1.0, stiffness=1.0) == Contact(
+        0.012, 1.0, 1.0, 0.0002, 0.8, 0.03
+    )
+    assert robot.controller == {}
+
+
+def test_legs_go_in_any_order_and_keep_their_parts(tmp_path: Path) -> None:
+    head, tail = LILIBOT.split("[[legs]]", 1)[0], LILIBOT[LILIBOT.index("[servo]") :]
+    blocks = LILIBOT[len(head) : LILIBOT.index("[servo]")].split("[[legs]]")[1:]
+    shuffled = head + "".join("[[legs]]" + blocks[k] for k in (2, 3, 0, 1)) + tail
+    assert shuffled.index('"LF"') < shuffled.index('"RF"')
+    assert load_robot(written(tmp_path, shuffled)) == load_robot("lilibot")
+    robot = load_robot("hexapod")
+    assert [leg.name for leg in robot.legs] == ["RF", "RM", "RH", "LF", "LM", "LH"]
+    assert replace(robot, legs=robot.legs[::-1]) == robot
+
+
+def test_an_odd_leg_is_on_the_left(tmp_path: Path) -> None:
+    tail = '[[legs]]\nname = "T"\nmount = [-0.15, 0.0, 0.0]\n\n[servo]'
+    robot = load_robot(written(tmp_path, LILIBOT.replace("[servo]", tail)))
+    assert [leg.name for leg in robot.legs] == ["RF", "RH", "LF", "LH", "T"]
+
+
+def test_a_leg_can_differ_from_the_others(tmp_path: Path) -> None:
+    own = "mount = [0.092, 0.066, 0.0]\ntibia_length = 0.09\nhip = {mass = 0.1}"
+    robot = load_robot(written(tmp_path, LILIBOT.replace("mount = [0.092, 0.066, 0.0]", own)))
+    common = load_robot("lilibot").legs[0]
+    special = robot.legs[2]
+    assert special.tibia_length == 0.09
+    assert special.hip == replace(common.hip, mass=0.1)
+    assert special.femur == common.femur
+    assert robot.legs[0] == common
+
+
+def test_files_that_call_the_mount_hip_are_still_read(tmp_path: Path) -> None:
+    assert load_robot(written(tmp_path, LILIBOT.replace("mount =", "hip ="))) == load_robot(
+        "lilibot"
+    )
+
+
+def test_a_robot_carries_its_own_gains(tmp_path: Path) -> None:
+    table = '[controller]\nxi = 0.03\nN = 40\nkappa_rule = "printed"\nphi_frozen = false\n'
+    robot = load_robot(written(tmp_path, LILIBOT + "\n" + table))
+    assert robot.controller == {"xi": 0.03, "N": 40, "kappa_rule": 2, "phi_frozen": False}
+    assert isinstance(robot.controller["phi_frozen"], bool)
+    assert robot != load_robot("lilibot")
+    assert hash(robot)
+    assert pickle.loads(pickle.dumps(robot)) == robot
+    assert asdict(robot)["controller"]["N"] == 40
+
+
+def test_angles_are_in_degrees_in_a_file_and_in_radians_in_a_robot() -> None:
+    leg = load_robot("lilibot").legs[0]
+    assert leg.femur_angle == pytest.approx(43.0 * math.pi / 180.0, abs=1e-15)
+    assert replace(leg, tibia_angle=math.pi).tibia_angle == math.pi
+    with pytest.raises(RobotDescriptionError, match=r"tibia_angle is 183\..*to 180 \[deg"):
+        replace(leg, tibia_angle=3.2)
+
+
+def test_a_robot_made_in_code_is_checked_too() -> None:
+    robot = load_robot("lilibot")
+    with pytest.raises(RobotDescriptionError, match=r"friction is -0.1; allowed"):
+        replace(robot.contact, friction=-0.1)
+    with pytest.raises(RobotDescriptionError, match=r"legs is .*allowed: 1 of 2 legs with y < 0"):
+        replace(robot, legs=robot.legs[:2])
+
+
+def test_an_unknown_robot_lists_the_known_ones() -> None:
+    with pytest.raises(RobotDescriptionError, match=r"'spot' is unknown; allowed: .*lilibot"):
+        load_robot("spot")
+
+
+def test_a_file_that_is_no_toml_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "noise.toml"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(RobotDescriptionError, match="not readable as TOML"):
+        load_robot(str(path))

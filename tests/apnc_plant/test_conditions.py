@@ -1,0 +1,251 @@
+"""Every condition does what it says, and can be switched while the robot walks."""
+
+import math
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from apnc_plant.conditions import CONDITIONS, PAYLOAD, Conditions, named_conditions
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import PAYLOAD_SIZE, Body, MassProperties, load_robot
+from exudyn_models.plant import Plant
+
+TICK = 1 / 60
+ROBOT = load_robot("lilibot")
+QUIET = replace(ROBOT, sensor=replace(ROBOT.sensor, noise=0.0))
+HALF = ROBOT.weight / 2.0
+
+
+def wait(plant: Plant, seconds: float, hip: float = 0.0, knee: float = 0.0) -> None:
+    for _ in range(round(seconds / TICK)):
+        plant.advance(np.full(4, hip), np.full(4, knee), TICK)
+
+
+def test_payload_weighs_on_the_feet() -> None:
+    plant = Plant(ROBOT, conditions=named_conditions("C4"))
+    wait(plant, 2.0)
+    assert plant.mass == pytest.approx(2.5 + PAYLOAD)
+    load = plant.sample()["foot_force"][:, 2].sum()
+    assert load == pytest.approx((2.5 + PAYLOAD) * 9.81, rel=1e-3)
+
+
+def test_payload_sits_on_the_trunk() -> None:
+    trunk = ROBOT.trunk
+    loaded = trunk.loaded(0.001, 1.25)
+    height = trunk.center[2] + trunk.body.size[2] / 2.0 + PAYLOAD_SIZE[2] / 2.0
+    assert loaded.mass == pytest.approx(trunk.body.mass + 1.25)
+    own = np.add(trunk.body.com, [0.0, 0.001, 0.0])
+    expected = (trunk.body.mass * own + 1.25 * np.array([0.0, 0.0, height])) / loaded.mass
+    np.testing.assert_allclose(loaded.com, expected)
+    plain = trunk.loaded(0.001, 0.0)
+    np.testing.assert_allclose(plain.com, own)
+    np.testing.assert_allclose(plain.inertia, trunk.body.inertia())
+
+
+def test_two_halves_of_a_box_are_the_box() -> None:
+    half = Body(1.0, (0.1, 0.2, 0.3), (0.0, 0.0, 0.0)).inertia()
+    left = MassProperties(1.0, np.array([0.05, 0.0, 0.0]), half)
+    right = MassProperties(1.0, np.array([0.15, 0.0, 0.0]), half)
+    whole = left.joined(right)
+    np.testing.assert_allclose(whole.com, [0.1, 0.0, 0.0])
+    expected = Body(2.0, (0.2, 0.2, 0.3), (0.0, 0.0, 0.0)).inertia()
+    np.testing.assert_allclose(whole.inertia, expected)
+
+
+def test_payload_cannot_change_on_the_way() -> None:
+    plant = Plant(ROBOT)
+    with pytest.raises(ValueError, match=r"payload is 1\.25 kg"):
+        plant.set_conditions(Conditions(payload=1.25))
+
+
+def test_added_noise_has_its_size() -> None:
+    plant = Plant(QUIET)
+    wait(plant, 2.0)
+    plant.set_conditions(Conditions(grf_noise=0.05))
+    readings = []
+    for _ in range(600):
+        wait(plant, TICK)
+        readings.append(plant.grf())
+    # 2400 samples, 4 standard errors of a standard deviation: 6 %.
+    deviations = np.array(readings) - plant.sample()["foot_force"][:, 2]
+    assert deviations.std() == pytest.approx(0.05 * HALF, rel=0.06)
+    assert named_conditions("C2").grf_noise > 5 * ROBOT.sensor.noise
+
+
+def test_a_damaged_leg_does_not_follow() -> None:
+    plant = Plant(ROBOT, options=PlantOptions(gravity=0.0, clearance=0.5))
+    plant.set_conditions(named_conditions("C3"))
+    wait(plant, 1.0, hip=0.2, knee=0.3)
+    angles = plant.sample()["joint_angle"]
+    np.testing.assert_allclose(angles[0], 0.0, atol=0.01)
+    np.testing.assert_allclose(angles[1:, 1], 0.2, atol=0.01)
+    np.testing.assert_allclose(angles[1:, 2], 0.3, atol=0.01)
+    plant.set_conditions(Conditions())
+    wait(plant, 1.0, hip=0.2, knee=0.3)
+    np.testing.assert_allclose(plant.sample()["joint_angle"][0], [0.0, 0.2, 0.3], atol=0.01)
+
+
+def test_stuck_sensors_deliver_their_value_and_the_others_the_load() -> None:
+    plant = Plant(QUIET)
+    wait(plant, 2.0)
+    plant.set_conditions(named_conditions("S2"))
+    wait(plant, TICK)
+    reading, load = plant.grf(), plant.sample()["foot_force"][:, 2]
+    np.testing.assert_allclose(reading[[0, 2]], 0.9 * HALF)
+    np.testing.assert_allclose(reading[[1, 3]], load[[1, 3]], rtol=1e-3)
+    plant.set_conditions(Conditions())
+    wait(plant, TICK)
+    np.testing.assert_allclose(plant.grf(), load, rtol=1e-3)
+
+
+def test_removed_feedback_reads_zero() -> None:
+    plant = Plant(ROBOT, conditions=named_conditions("S3"))
+    wait(plant, 1.0)
+    np.testing.assert_array_equal(plant.grf(), 0.0)
+    plant.set_conditions(Conditions(dropout=("LH",)))
+    wait(plant, TICK)
+    assert plant.grf()[3] == 0.0
+    assert (plant.grf()[:3] > 1.0).all()
+
+
+def test_a_held_robot_hangs_until_it_is_let_go() -> None:
+    plant = Plant(QUIET, conditions=named_conditions("S1"))
+    start = plant.sample()["position"]
+    height = start[2] - Plant(QUIET).sample()["position"][2]
+    assert height == pytest.approx(0.02)
+    for tick in range(102):
+        swing = 0.1 * math.sin(0.15 * tick)
+        plant.advance(np.full(4, swing), np.full(4, swing), TICK)
+        np.testing.assert_array_equal(plant.sample()["foot_force"], 0.0)
+    # The springs of the suspension give by weight over stiffness, 5 mm, and no more.
+    np.testing.assert_allclose(plant.sample()["position"], start, atol=0.006)
+    np.testing.assert_allclose(plant.sample()["rpy"], 0.0, atol=0.05)
+    plant.set_conditions(Conditions())
+    wait(plant, 1.5)
+    assert plant.sample()["foot_force"][:, 2].sum() == pytest.approx(ROBOT.weight, rel=1e-3)
+
+
+def test_a_robot_can_be_lifted_while_it_stands() -> None:
+    plant = Plant(QUIET)
+    wait(plant, 1.0)
+    plant.set_conditions(Conditions(held_at=0.03))
+    wait(plant, 1.0)
+    np.testing.assert_array_equal(plant.sample()["foot_force"], 0.0)
+    np.testing.assert_allclose(plant.sample()["rpy"], 0.0, atol=0.01)
+
+
+def test_conditions_of_the_paper_fit_the_robot() -> None:
+    assert set(CONDITIONS) == {"C1", "C2", "C3", "C4", "S1", "S2", "S3"}
+    assert named_conditions("C1") == Conditions()
+    for conditions in CONDITIONS.values():
+        conditions.check_legs(("RF", "RH", "LF", "LH"))
+    with pytest.raises(ValueError, match=r"^conditions 'C5' are not one of C1, .*, S2, S3$"):
+        named_conditions("C5")
+
+
+@pytest.mark.parametrize("name", CONDITIONS)
+def test_conditions_go_to_other_processes(name: str) -> None:
+    assert pickle.loads(pickle.dumps(CONDITIONS[name])) == CONDITIONS[name]
+
+
+def test_no_feedback_means_every_leg_of_any_robot() -> None:
+    legs = ("RF", "RM", "RH", "LF", "LM", "LH")
+    assert named_conditions("S3").silent(legs) == legs
+    assert Conditions(dropout=("LM",)).silent(legs) == ("LM",)
+    assert Conditions().silent(legs) == ()
+    named_conditions("S3").check_legs(legs)
+    plant = Plant(load_robot("hexapod"), conditions=named_conditions("S3"))
+    for _ in range(30):
+        plant.advance(np.zeros(6), np.zeros(6), TICK)
+    np.testing.assert_array_equal(plant.grf(), 0.0)
+
+
+def test_the_paper_s_conditions_are_these() -> None:
+    assert dict(CONDITIONS) == {
+        "C1": Conditions(),
+        "C2": Conditions(grf_noise=0.2),
+        "C3": Conditions(damaged=("RF",)),
+        "C4": Conditions(payload=1.25),
+        "S1": Conditions(held_at=0.02),
+        "S2": Conditions(stuck={"RF": 0.9, "LF": 0.9}),
+        "S3": Conditions(dropout=("*",)),
+    }
+
+
+@pytest.mark.parametrize(
+    "conditions",
+    [Conditions(damaged=("XX",)), Conditions(stuck={"XX": 0.0}), Conditions(dropout=("XX", "*"))],
+)
+def test_a_leg_that_the_robot_lacks_is_named(conditions: Conditions) -> None:
+    with pytest.raises(ValueError, match=r"^leg 'XX' is not one of RF, RH, LF, LH$"):
+        conditions.check_legs(("RF", "RH", "LF", "LH"))
+
+
+def test_zero_is_allowed_everywhere() -> None:
+    Conditions(payload=0.0, grf_noise=0.0, stuck={"RF": 0.0}, held_at=0.0)
+
+
+def test_legs_go_by_name() -> None:
+    with pytest.raises(ValueError, match="leg 'RM' is not one of RF, RH, LF, LH"):
+        Plant(ROBOT, conditions=Conditions(damaged=("RM",)))
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"payload": -1.0}, r"^payload is -1.0; allowed: a finite number, 0 or more$"),
+        ({"grf_noise": math.inf}, "grf_noise is inf"),
+        ({"grf_noise": -0.1}, "grf_noise is -0.1"),
+        ({"held_at": math.nan}, "held_at is nan"),
+        ({"stuck": {"RF": math.nan}}, r"stuck\[RF\] is nan"),
+        ({"held_at": -0.1}, "held_at is -0.1"),
+    ],
+)
+def test_values_out_of_range_are_refused(values: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        Conditions(**values)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("latency", [0.004, TICK, 0.04])
+def test_a_command_takes_effect_after_the_latency(latency: float) -> None:
+    late = replace(ROBOT, servo=replace(ROBOT.servo, latency=latency))
+    options = PlantOptions(gravity=0.0, clearance=0.5, step=1e-4)
+    delayed, prompt = Plant(late, options=options), Plant(ROBOT, options=options)
+    angles = []
+    for plant, length in ((delayed, 0.1), (prompt, 0.1 - latency)):
+        ticks = 1 if plant is prompt else 4
+        for _ in range(ticks):
+            plant.advance(np.zeros(4), np.full(4, 0.3), length / ticks)
+        angles.append(plant.sample()["joint_angle"])
+    assert angles[1][0, 2] > 0.01
+    np.testing.assert_allclose(angles[0], angles[1], atol=1e-3)
+
+
+def test_the_sensor_can_show_the_norm_of_the_force() -> None:
+    prompt = replace(QUIET.sensor, delay=0.0, time_constant=0.0)
+    readings = {}
+    for component in ("normal", "norm"):
+        plant = Plant(replace(QUIET, sensor=replace(prompt, component=component)))
+        for tick in range(90):
+            swing = 0.13 * math.sin(0.12 * tick) * np.array([1.0, -1.0, -1.0, 1.0])
+            plant.advance(swing, 0.08 * np.cos(swing), TICK)
+        readings[component] = plant.grf()
+        force = plant.sample()["foot_force"]
+    np.testing.assert_allclose(readings["norm"], np.linalg.norm(force, axis=1), rtol=1e-12)
+    np.testing.assert_allclose(readings["normal"], force[:, 2], rtol=1e-12)
+    assert (readings["norm"] - readings["normal"]).max() > 0.01
+
+
+def test_a_slew_rate_limits_how_fast_a_command_moves() -> None:
+    slow = replace(ROBOT, servo=replace(ROBOT.servo, slew_rate=1.0))
+    limited, ramped = Plant(slow), Plant(ROBOT)
+    step = np.full(4, 0.2)
+    for tick in range(1, 25):
+        limited.advance(step, np.zeros(4), TICK)
+        ramped.advance(np.minimum(step, 1.0 * tick * TICK), np.zeros(4), TICK)
+        np.testing.assert_allclose(
+            limited.sample()["joint_angle"], ramped.sample()["joint_angle"], atol=1e-12
+        )
+    assert limited.sample()["joint_angle"][:, 1].min() > 0.1
