@@ -37,21 +37,29 @@ def compiler_version() -> str:
         return ""
 
 
-def _platform_flags(platform: Platform) -> tuple[str, ...]:
+def _platform_flags(platform: Platform, name: str) -> tuple[str, ...]:
     if platform.suffix == ".so":
         return _LINUX_FLAGS
     if platform.suffix == ".dylib":
-        return ("-fPIC", f"-Wl,-install_name,@rpath/{MODEL}.dylib")
+        return ("-fPIC", f"-Wl,-install_name,@rpath/{name}.dylib")
     return ()
 
 
-def compile_library(folder: Path, c_files: list[str], platform: Platform) -> bytes:
+def compile_library(
+    folder: Path,
+    c_files: list[str],
+    platform: Platform,
+    name: str = MODEL,
+    flags: tuple[str, ...] = (),
+) -> bytes:
     """Bytes of the stripped shared library.
 
     Args:
         folder: folder that holds all sources.
         c_files: names of the files to compile.
         platform: what to compile for.
+        name: of the library, without its suffix.
+        flags: more flags.
 
     Raises:
         BuildError: the compiler failed, and the message carries what it said; or there is none.
@@ -61,10 +69,10 @@ def compile_library(folder: Path, c_files: list[str], platform: Platform) -> byt
     # the compiler's own run time is built once per platform and kept beside the FMUs
     caches = {"ZIG_GLOBAL_CACHE_DIR": str(cache_folder() / "zig")}
     with tempfile.TemporaryDirectory() as out:
-        library = Path(out) / (MODEL + platform.suffix)
+        library = Path(out) / (name + platform.suffix)
         command = [
             *(sys.executable, "-m", "ziglang", "cc", "-target", platform.zig_target),
-            *("-shared", "-s", *FLAGS, *_platform_flags(platform)),
+            *("-shared", "-s", *FLAGS, *flags, *_platform_flags(platform, name)),
             *("-I.", *c_files, "-o", str(library)),
         ]
         done = subprocess.run(
