@@ -13,7 +13,7 @@ from apnc_plant.channels import PlantError
 from apnc_plant.conditions import Conditions
 from apnc_plant.coordinates import BASE, JOINT_SIGN
 from apnc_plant.ground import Plane, Surface
-from apnc_plant.options import COMPILED, PlantOptions
+from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import Array, MassProperties, RobotDescription
 from apnc_plant.sensor.load import LoadSensor
 from apnc_plant.start import start_coordinates
@@ -30,9 +30,9 @@ class Setup:
         robot: the robot.
         trunk: mass properties of its trunk with what it carries.
         ground: what it stands on.
-        options: integration and contact.
+        options: start and integration.
         start: initial coordinates, shape (6 + 3 n_legs,), see ``coordinates``.
-        forces: everything that acts besides gravity; an engine with its own contact adds that.
+        forces: everything that acts besides gravity.
     """
 
     robot: RobotDescription
@@ -52,7 +52,6 @@ class Engine(Protocol):
         """Build them.
 
         Raises:
-            ValueError: a ground that the engine's own contact does not know.
             PlantError: the engine refused the model.
         """
 
@@ -70,15 +69,6 @@ class Engine(Protocol):
 
     def mass_matrix(self) -> Array:
         """Mass matrix at the present coordinates, shape (6 + 3 n_legs, 6 + 3 n_legs)."""
-
-    def own_contact(self, q: Array, force: Array, load: Array) -> None:
-        """What the engine's own contact did to the feet in the last step.
-
-        Args:
-            q: coordinates, shape (6 + 3 n_legs,).
-            force: of the ground on the feet, world frame [N], shape (3 n_legs,); written here.
-            load: their normal parts [N], shape (n_legs,); written here.
-        """
 
 
 class LeggedPlant:
@@ -115,8 +105,7 @@ class LeggedPlant:
             conditions: payload, damage and the like; none if omitted.
 
         Raises:
-            ValueError: conditions name a leg the robot does not have, or a contact or ground that
-                the engine does not.
+            ValueError: conditions name a leg the robot does not have.
             PlantError: the engine refused the model.
         """
         self._robot, self._options = robot, options or PlantOptions()
@@ -140,9 +129,7 @@ class LeggedPlant:
         self._start = start_coordinates(robot, self._ground, angles, options.clearance)
         coordinates = self._start.copy()
         coordinates[2] += self._conditions.held_at or 0.0
-        options.check_contact(self.engine.name)
-        compiled = options.contact == COMPILED
-        self._forces = RobotForces(robot, self._ground, coordinates[BASE:], touches=compiled)
+        self._forces = RobotForces(robot, self._ground, coordinates[BASE:])
         self._commanded = coordinates[BASE:].reshape(-1, 3) * JOINT_SIGN
         self._coming: deque[tuple[float, Array]] = deque()
         trunk = robot.trunk.loaded(side_offset, self._conditions.payload)
@@ -242,8 +229,6 @@ class LeggedPlant:
 
     def _measure(self) -> None:
         self._forces.measure(self._q, self._v)
-        if self._options.contact != COMPILED:
-            self._engine.own_contact(self._q, self._forces.force, self._forces.load)
 
     def trace(self) -> Trace:
         """A recorder of every channel in ``PLANT_CHANNELS``, a row per tick."""

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Final
 
 from apnc_plant.robot.model import GRAVITY
-
-COMPILED: Final = "compiled"
-"""The contact of ``physics.forces``, in any engine."""
 
 
 @dataclass(frozen=True)
@@ -23,8 +19,6 @@ class PlantOptions:
         clearance: height of the lowest foot above the ground at the start [m].
         start_hip, start_knee: joint angles of every leg at the start, relative to the reference
             pose [rad].
-        contact: ``compiled``, or the engine's name for its own, to hold the compiled one against:
-            ``exudyn`` on level ground without obstacles, ``mujoco`` on planes.
     """
 
     step: float = 1.0 / 960.0
@@ -32,7 +26,6 @@ class PlantOptions:
     clearance: float = 0.0
     start_hip: float = 0.0
     start_knee: float = 0.0
-    contact: str = COMPILED
 
     def __post_init__(self) -> None:
         """Refuse a step that is not positive and values that are not finite."""
@@ -42,12 +35,3 @@ class PlantOptions:
             value = getattr(self, name)
             if not math.isfinite(value):
                 raise ValueError(f"{name} is {value}; allowed: a finite number")
-
-    def check_contact(self, engine: str) -> None:
-        """Refuse a contact that an engine does not have.
-
-        Raises:
-            ValueError: neither the compiled one nor the engine's own.
-        """
-        if self.contact not in (COMPILED, engine):
-            raise ValueError(f"contact '{self.contact}' is not one of {COMPILED}, {engine}")

@@ -8,10 +8,8 @@ import numpy as np
 
 from apnc_plant.channels import PlantError
 from apnc_plant.legged import Engine, LeggedPlant, Setup
-from apnc_plant.options import COMPILED
 from apnc_plant.robot.model import Array
 from exudyn_models.engine import exu
-from exudyn_models.physics.own_contact import add_own_contact, own_foot_forces
 from exudyn_models.tree import add_tree
 
 
@@ -20,7 +18,7 @@ class ExudynTree(Engine):
 
     Attributes:
         mbs, solver: Exudyn's system and its solver.
-        tree: the items in it.
+        tree: item number of the tree in it; link k moves with coordinate k.
     """
 
     name: ClassVar[str] = "exudyn"
@@ -28,20 +26,15 @@ class ExudynTree(Engine):
     def __init__(self, setup: Setup) -> None:
         """Assemble the system; see ``Engine``."""
         options, self._forces = setup.options, setup.forces
-        own = options.contact != COMPILED
-        if own and (setup.ground.slope or not setup.ground.flat):
-            raise ValueError("contact 'exudyn' knows level ground without obstacles only")
-        self._contact = setup.robot.contact
         # The container owns the system: without this reference Exudyn frees it.
-        self._container = exu.SystemContainer()
+        self._container = exu().SystemContainer()
         self.mbs: Any = self._container.AddSystem()
         self.tree = add_tree(
             self.mbs, setup.robot, setup.trunk, options.gravity, setup.start, setup.forces
         )
-        self._own_contact = add_own_contact(self.mbs, self.tree, self._contact) if own else None
         self.mbs.Assemble()
         self._settings = _solver_settings(options.step)
-        self.solver: Any = exu.MainSolverExplicit()
+        self.solver: Any = exu().MainSolverExplicit()
         if not self.solver.InitializeSolver(self.mbs, self._settings):
             raise PlantError("Exudyn refused the model")
 
@@ -60,12 +53,6 @@ class ExudynTree(Engine):
         self.solver.ComputeMassMatrix(self.mbs)
         return np.array(self.solver.GetSystemMassMatrix())
 
-    def own_contact(self, q: Array, force: Array, load: Array) -> None:
-        """Forces of Exudyn's own contact; see ``Engine``."""
-        radius = self._contact.foot_radius
-        found = own_foot_forces(self._own_contact, q, self._forces.geometry, radius)
-        force[:], load[:] = found.ravel(), found[:, 2]
-
 
 class Plant(LeggedPlant):
     """One robot in its own Exudyn system; see :class:`LeggedPlant`."""
@@ -74,14 +61,14 @@ class Plant(LeggedPlant):
 
 
 def _solver_settings(step: float) -> Any:
-    settings = exu.SimulationSettings()
+    settings = exu().SimulationSettings()
     integration = settings.timeIntegration
-    integration.solverType = exu.DynamicSolverType.VelocityVerlet
+    integration.solverType = exu().DynamicSolverType.VelocityVerlet
     integration.numberOfSteps = 1
     integration.endTime = step
     integration.verboseMode = 0
     integration.explicit.useLieGroupIntegration = False
-    settings.linearSolver.solverType = exu.LinearSolverType.EigenDense
+    settings.linearSolver.solverType = exu().LinearSolverType.EigenDense
     settings.solution.file.write = False
     settings.solution.sensors.active = False
     return settings

@@ -20,17 +20,6 @@ Forces = Callable[[Any, float, int, list[float], list[float]], list[float]]
 """(system, time [s], item, coordinates, speeds) -> generalized forces."""
 
 
-@dataclass(frozen=True)
-class Tree:
-    """Item numbers of the tree in its Exudyn system.
-
-    Args:
-        feet: one marker per leg, at the centre of the foot ball.
-    """
-
-    feet: tuple[Any, ...]
-
-
 @dataclass
 class _Links:
     """Rows of the tree as they are collected, one entry per coordinate."""
@@ -68,24 +57,24 @@ def add_tree(
     gravity: float,
     start: Array,
     forces: Forces,
-) -> Tree:
-    """Add trunk, legs and reflected rotor inertia to an Exudyn system.
+) -> Any:
+    """Add trunk, legs and reflected rotor inertia to an Exudyn system; returns the tree's number.
 
     Args:
         mbs: the system.
         robot: the robot.
         trunk: mass properties of the trunk with what it carries.
         gravity: downward acceleration [m/s^2].
-        start: initial coordinates, shape (6 + 3 n_legs,), see
-            ``coordinates``.
+        start: initial coordinates, shape (6 + 3 n_legs,), see ``coordinates``.
         forces: called by Exudyn for the generalized forces besides gravity.
     """
     links = _Links()
     base = _add_base(links, trunk)
-    tibias = [_add_leg(links, leg, base) for leg in robot.legs]
+    for leg in robot.legs:
+        _add_leg(links, leg, base)
     size = len(links.parents)
     node = mbs.AddNode(
-        items.NodeGenericODE2(
+        items().NodeGenericODE2(
             referenceCoordinates=np.zeros(size),
             initialCoordinates=start,
             initialCoordinates_t=np.zeros(size),
@@ -94,19 +83,11 @@ def add_tree(
     )
     tree = mbs.AddObject(_tree_object(links, node, gravity, forces))
     _add_reflected_inertia(mbs, node, size, robot.servo.reflected_inertia)
-    feet = tuple(
-        mbs.AddMarker(
-            items.MarkerKinematicTreeRigid(
-                objectNumber=tree, linkNumber=link, localPosition=[0.0, 0.0, -leg.tibia_length]
-            )
-        )
-        for link, leg in zip(tibias, robot.legs, strict=True)
-    )
-    return Tree(feet)
+    return tree
 
 
 def _add_base(links: _Links, trunk: MassProperties) -> int:
-    kind = exu.JointType
+    kind = exu().JointType
     link = -1
     for joint in (kind.PrismaticX, kind.PrismaticY, kind.PrismaticZ, kind.RevoluteZ):
         link = links.add(joint, link)
@@ -114,25 +95,24 @@ def _add_base(links: _Links, trunk: MassProperties) -> int:
     return links.add(kind.RevoluteX, link, body=trunk)
 
 
-def _add_leg(links: _Links, leg: Leg, trunk: int) -> int:
-    at = trunk
+def _add_leg(links: _Links, leg: Leg, trunk: int) -> None:
+    at, kind = trunk, exu().JointType
     for link in links_of(leg):
         about_x = link.axis[0] != 0.0
-        joint = exu.JointType.RevoluteX if about_x else exu.JointType.RevoluteY
+        joint = kind.RevoluteX if about_x else kind.RevoluteY
         at = links.add(joint, at, link.place, link.pitch, link.body)
-    return at
 
 
 def _tree_object(links: _Links, node: Any, gravity: float, forces: Forces) -> Any:
-    return items.ObjectKinematicTree(
+    return items().ObjectKinematicTree(
         nodeNumber=node,
         gravity=[0.0, 0.0, -gravity],
         jointTypes=links.types,
         linkParents=links.parents,
-        jointTransformations=exu.Matrix3DList(links.rotations),
-        jointOffsets=exu.Vector3DList(links.offsets),
-        linkInertiasCOM=exu.Matrix3DList(links.inertias),
-        linkCOMs=exu.Vector3DList(links.coms),
+        jointTransformations=exu().Matrix3DList(links.rotations),
+        jointOffsets=exu().Vector3DList(links.offsets),
+        linkInertiasCOM=exu().Matrix3DList(links.inertias),
+        linkCOMs=exu().Vector3DList(links.coms),
         linkMasses=links.masses,
         forceUserFunction=forces,
     )
@@ -142,7 +122,7 @@ def _add_reflected_inertia(mbs: Any, node: Any, size: int, inertia: float) -> No
     # The tree has no field for rotor inertia; a second object on the same node adds it to M.
     diagonal = np.zeros(size)
     diagonal[BASE:] = inertia
-    mbs.AddObject(items.ObjectGenericODE2(nodeNumbers=[node], massMatrix=np.diag(diagonal)))
+    mbs.AddObject(items().ObjectGenericODE2(nodeNumbers=[node], massMatrix=np.diag(diagonal)))
 
 
 def _rotation_y(angle: float) -> Array:

@@ -1,10 +1,13 @@
-"""MuJoCo, imported once for the whole package."""
+"""MuJoCo, loaded at its first use."""
 
 from __future__ import annotations
 
+import importlib
+from functools import cache
 from typing import Any
 
-import mujoco
 
-# Untyped: what its stubs say differs from version to version.
-mj: Any = mujoco
+@cache
+def mj() -> Any:
+    """The module; untyped, since what its stubs say differs from version to version."""
+    return importlib.import_module("mujoco")

@@ -34,19 +34,15 @@ Element = ElementTree.Element
 _add = ElementTree.SubElement
 
 
-def tree_mjcf(
-    robot: RobotDescription, trunk: MassProperties, slope: float, pairs: Sequence[Pair]
-) -> str:
+def tree_mjcf(robot: RobotDescription, trunk: MassProperties) -> str:
     """The robot in the coordinates of ``apnc_plant.coordinates``, for our own plant.
 
-    The base has three slides and three hinges, hip and knee turn about +y, and there are no
-    actuators: all forces come from outside.
+    The base has three slides and three hinges, hip and knee turn about +y, and there are neither
+    actuators nor ground: all forces come from outside.
 
     Args:
         robot: the robot.
         trunk: mass properties of its trunk with what it carries.
-        slope: rise of the plane along x [rad].
-        pairs: contact of every foot with the plane; none for no plane and no contact.
     """
     root, body = _model(robot)
     for kind, name, axis in _BASE:
@@ -54,7 +50,6 @@ def tree_mjcf(
     _inertial(body, trunk)
     for leg in robot.legs:
         _leg(body, leg, robot, tree=True)
-    _ground(root, slope, robot, pairs)
     return _text(root)
 
 
@@ -84,7 +79,7 @@ def robot_mjcf(robot: RobotDescription, pairs: Sequence[Pair], *, servo: str = "
     _add(body, "site", name="imu")
     for leg in robot.legs:
         _leg(body, leg, robot, tree=False)
-    _ground(root, 0.0, robot, pairs)
+    _ground(root, robot, pairs)
     _actuators(root, robot, servo)
     _sensors(root, robot)
     return _text(root)
@@ -162,15 +157,12 @@ def _box(body: Element, center: Sequence[float], size: Sequence[float]) -> None:
     _add(body, "geom", type="box", pos=_numbers(center), size=half, rgba=_PLASTIC, **_UNTOUCHED)
 
 
-def _ground(root: Element, slope: float, robot: RobotDescription, pairs: Sequence[Pair]) -> None:
-    if not pairs:
-        return
+def _ground(root: Element, robot: RobotDescription, pairs: Sequence[Pair]) -> None:
     world = root.find("worldbody")
     assert world is not None
-    turn = (cos(slope / 2.0), 0.0, -sin(slope / 2.0), 0.0)
     _add(
-        world, "geom", name="ground", type="plane", size="5 5 0.1", quat=_numbers(turn),
-        rgba="0.9 0.9 0.9 1", **_UNTOUCHED,
+        world, "geom", name="ground", type="plane", size="5 5 0.1", rgba="0.9 0.9 0.9 1",
+        **_UNTOUCHED,
     )  # fmt: skip
     contact = _add(root, "contact")
     for leg, pair in zip(robot.legs, pairs, strict=True):

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, Final
 
 import numpy as np
 
 from apnc_plant.channels import PlantError
 from apnc_plant.legged import Engine, Setup
-from apnc_plant.options import COMPILED
 from apnc_plant.robot.model import Array, RobotDescription
-from mujoco_models.contact import Pair, pair_of
+from mujoco_models.contact import pair_of
 from mujoco_models.engine import mj
 from mujoco_models.mjcf import foot_of, robot_mjcf, tree_mjcf
 
@@ -25,22 +23,25 @@ def export_mjcf(robot: RobotDescription, *, servo: str = "position") -> str:
     Raises:
         ValueError: an unknown servo.
     """
-    return _with_contact(robot, lambda pairs: robot_mjcf(robot, pairs, servo=servo))
+    # the admittance of the feet, which their contact depends on, is known once it is compiled
+    rough_pairs = [pair_of(robot, 1.0)] * len(robot.legs)
+    rough = _model(robot_mjcf(robot, rough_pairs, servo=servo))
+    bodies = [rough.geom_bodyid[rough.geom(foot_of(leg)).id] for leg in robot.legs]
+    pairs = [pair_of(robot, float(rough.body_invweight0[body, 0])) for body in bodies]
+    text = robot_mjcf(robot, pairs, servo=servo)
+    _model(text)
+    return text
 
 
-def _with_contact(robot: RobotDescription, text: Callable[[Sequence[Pair]], str]) -> str:
-    """A model whose contact is that of the robot file: its admittance is known once compiled."""
-    rough = mj.MjModel.from_xml_string(text([pair_of(robot, 1.0)] * len(robot.legs)))
-    names = [foot_of(leg) for leg in robot.legs]
-    bodies = [rough.geom_bodyid[rough.geom(name).id] for name in names]
-    return text([pair_of(robot, float(rough.body_invweight0[body, 0])) for body in bodies])
+def _model(text: str) -> Any:
+    return mj().MjModel.from_xml_string(text)
 
 
 class MujocoTree(Engine):
     """The robot in MuJoCo, integrated by velocity Verlet as in Exudyn.
 
-    Servos, suspension and the compiled contact are generalized forces from outside, the very ones
-    that Exudyn gets.
+    Servos, suspension and contact are generalized forces from outside, the very ones that Exudyn
+    gets.
 
     Attributes:
         model, data: MuJoCo's.
@@ -50,25 +51,15 @@ class MujocoTree(Engine):
 
     def __init__(self, setup: Setup) -> None:
         """Compile the model; see ``Engine``."""
-        robot, ground, options = setup.robot, setup.ground, setup.options
-        own = options.contact != COMPILED
-        if own and not ground.flat:
-            raise ValueError("contact 'mujoco' knows planes without obstacles only")
-        self._forces, self._normal = setup.forces, ground.rotation()[:, 2]
-
-        def text(pairs: Sequence[Pair]) -> str:
-            return tree_mjcf(robot, setup.trunk, ground.slope, pairs)
-
+        self._forces = setup.forces
         try:
-            self.model = mj.MjModel.from_xml_string(_with_contact(robot, text) if own else text(()))
+            self.model = _model(tree_mjcf(setup.robot, setup.trunk))
         except ValueError as error:
             raise PlantError(f"MuJoCo refused the model: {' '.join(str(error).split())}") from None
-        model = self.model
-        model.opt.gravity[2] = -options.gravity
-        self.data = mj.MjData(model)
+        self.model.opt.gravity[2] = -setup.options.gravity
+        self.data = mj().MjData(self.model)
         self.data.qpos[:] = setup.start
         self._accelerate()
-        self._leg_of = {model.geom(foot_of(leg)).id: k for k, leg in enumerate(robot.legs) if own}
 
     def advance(self, end: float, steps: int, q: Array, v: Array) -> bool:
         """Integrate; see ``Engine``."""
@@ -90,23 +81,11 @@ class MujocoTree(Engine):
         """Find the accelerations, under the forces at the present coordinates and speeds."""
         self.data.qfrc_applied[:] = self._forces.acting(self.data.qpos, self.data.qvel)
         # mj_step would also look for a motion that broke down, and reset it with a warning
-        mj.mj_forward(self.model, self.data)
+        mj().mj_forward(self.model, self.data)
 
     def mass_matrix(self) -> Array:
         """Mass matrix; see ``Engine``."""
         columns = np.zeros((self.model.nv, self.model.nv))
         for column, unit in zip(columns, np.eye(self.model.nv), strict=True):
-            mj.mj_mulM(self.model, self.data, column, unit)
+            mj().mj_mulM(self.model, self.data, column, unit)
         return columns
-
-    def own_contact(self, q: Array, force: Array, load: Array) -> None:
-        """Forces of MuJoCo's own contact; see ``Engine``."""
-        force[:], load[:] = 0.0, 0.0
-        forces, found = force.reshape(-1, 3), np.zeros(6)
-        for at in range(self.data.ncon):
-            contact: Any = self.data.contact[at]
-            mj.mj_contactForce(self.model, self.data, at, found)
-            world = found[:3] @ contact.frame.reshape(3, 3)
-            leg = self._leg_of[contact.geom2]
-            forces[leg] += world
-            load[leg] += world @ self._normal

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -33,14 +34,10 @@ def export_robot(
         text, suffix = robot_urdf(own), "urdf"
     else:
         from apnc.loop.engines import needs
+        from mujoco_models.tree import export_mjcf
 
-        try:
-            from mujoco_models.tree import export_mjcf
-        except ModuleNotFoundError as error:
-            if error.name != "mujoco":
-                raise
-            raise ValueError(needs("mujoco")) from None
-
+        if importlib.util.find_spec("mujoco") is None:
+            raise ValueError(needs("mujoco"))
         text, suffix = export_mjcf(own, servo=servo or "position"), "xml"
     path = writable(output or Path(f"{own.name}.{suffix}"), file=True)
     path.write_text(text, encoding="utf-8")

@@ -57,7 +57,6 @@ def walk(
     reset: Annotated[Text, Option(help="Hold at the start: true, false *.")] = None,
     rate: Annotated[Number, Option(help="Update rate [Hz]; 60.0 if omitted.")] = None,
     step: Annotated[Number, Option(help="Longest integration step [s].")] = None,
-    contact: Annotated[Text, Option(help="compiled, or the engine's; compiled if omitted.")] = None,
     engine: Annotated[Text, Option(help="exudyn, mujoco; exudyn if omitted.")] = None,
     fmu: Annotated[Text, Option(help="This FMU instead of the built one.")] = None,
     output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),

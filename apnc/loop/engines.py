@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
@@ -13,6 +14,10 @@ ENGINES: Final = {"exudyn": "exudyn_models.plant", "mujoco": "mujoco_models.plan
 
 OWN_ENGINE: Final = "exudyn"
 """The engine that walks if none is named."""
+
+
+EXTRAS: Final = ("mujoco",)
+"""Engines whose package an extra of the same name brings."""
 
 
 def check_engine(name: str) -> None:
@@ -31,12 +36,9 @@ def plant_in(engine: str) -> type[LeggedPlant]:
     Raises:
         ValueError: the engine's package is not installed.
     """
-    try:
-        plant: type[LeggedPlant] = importlib.import_module(ENGINES[engine]).Plant
-    except ModuleNotFoundError as error:
-        if error.name != engine:
-            raise
-        raise ValueError(needs(engine)) from None
+    if engine in EXTRAS and importlib.util.find_spec(engine) is None:
+        raise ValueError(needs(engine))
+    plant: type[LeggedPlant] = importlib.import_module(ENGINES[engine]).Plant
     return plant
 
 

@@ -64,7 +64,6 @@ class Experiment:
         reset: holds the controller in its start state; one value or steps.
         rate: update rate of the controller [Hz].
         step: longest integration step of the plant [s].
-        contact: contact law of the feet, see ``PlantOptions``.
         engine: what integrates the equations of motion, ``exudyn`` or ``mujoco``.
         fmu: file of the controller; the built one if omitted.
 
@@ -85,7 +84,6 @@ class Experiment:
     reset: Over[bool] = False
     rate: float = 60.0
     step: float = PlantOptions().step
-    contact: str = PlantOptions().contact
     engine: str = OWN_ENGINE
     fmu: str | None = None
 
@@ -108,7 +106,7 @@ class Experiment:
             raise ValueError(f"ground = {self.ground!r} is not a ground")
         self._check_times()
         check_engine(self.engine)
-        PlantOptions(step=self.step, contact=self.contact).check_contact(self.engine)
+        PlantOptions(step=self.step)
         self.parameters()
         # equal experiments are equal however their numbers came, and nothing in them can change
         own = {name: checked(name, value) for name, value in self.settings.items()}

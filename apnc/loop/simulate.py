@@ -67,7 +67,7 @@ def plant_of(experiment: Experiment) -> Plant:
     return plant_in(experiment.engine)(
         experiment.description,
         experiment.seed,
-        options=PlantOptions(step=experiment.step, contact=experiment.contact),
+        options=PlantOptions(step=experiment.step),
         ground=experiment.ground,
         conditions=conditions_of(Course(experiment.conditions).at(0.0)),
     )

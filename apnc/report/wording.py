@@ -53,7 +53,7 @@ def facts(record: Record) -> list[tuple[str, str]]:
         ("Memory", f"starts with φ {_plain(stored)} rad" if stored else "empty at the start"),
         *((name.capitalize(), _plain(getattr(e, name))) for name in ("turn", "conditions")),
         *(("MI", _plain(e.mi)), ("Ground", _plain(e.ground)), ("Seed", str(e.seed))),
-        ("Contact", f"{e.contact}, step {1e6 * e.step:.4g} µs"),
+        ("Engine", f"{e.engine}, step {1e6 * e.step:.4g} µs"),
     ]
 
 

@@ -56,16 +56,13 @@ class RobotForces:
             the normal forces [N].
     """
 
-    def __init__(
-        self, robot: RobotDescription, ground: Surface, target: Array, *, touches: bool = True
-    ) -> None:
+    def __init__(self, robot: RobotDescription, ground: Surface, target: Array) -> None:
         """Bind the forces to a robot on a ground.
 
         Args:
             robot: geometry, servo and contact.
             ground: the ground.
             target: initial commanded tree coordinates of the joints [rad], shape (3 n_legs,).
-            touches: whether feet and ground touch here, or are left to the engine's own contact.
         """
         servo, contact = robot.servo, robot.contact
         n = len(robot.legs)
@@ -80,7 +77,7 @@ class RobotForces:
             servo.no_load_speed,
         )
         parameters[forces.CONTACT : forces.HOLD] = (
-            contact.foot_radius if touches else -math.inf,
+            contact.foot_radius,
             contact.stiffness,
             contact.damping,
             contact.damping_depth,

@@ -13,7 +13,7 @@ from apnc.loop.engines import OWN_ENGINE, plant_in
 from apnc.loop.record import Record
 from apnc.studies.robots import changed, constant
 from apnc.studies.rows import Row
-from apnc_plant.options import COMPILED, PlantOptions
+from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 
 Array = NDArray[np.float64]
@@ -52,10 +52,9 @@ def commands(tick: int) -> tuple[Array, Array]:
 
 
 @lru_cache
-def trot(depth: float, steps: int, engine: str = OWN_ENGINE, contact: str = COMPILED) -> Trot:
+def trot(depth: float, steps: int, engine: str = OWN_ENGINE) -> Trot:
     """Trot on fixed phases, integrated with ``steps`` steps per tick."""
-    options = PlantOptions(step=TICK / steps, contact=contact)
-    plant = plant_in(engine)(robot(depth), options=options)
+    plant = plant_in(engine)(robot(depth), options=PlantOptions(step=TICK / steps))
     forces = []
     for tick in range(round(OPEN_LOOP / TICK)):
         hip, knee = commands(tick)

@@ -1,4 +1,4 @@
-"""Does the gait form in another engine, and with another contact, as it does in Exudyn?"""
+"""Does the gait form in another engine as it does in Exudyn?"""
 
 from __future__ import annotations
 
@@ -22,16 +22,11 @@ from apnc.studies.rows import (
 from apnc.studies.statistics import rate
 from apnc.studies.study import WALK_S, Robot, Study
 from apnc.studies.table import markdown, middle
-from apnc_plant.options import COMPILED
 
 MI_VALUES: Final = tuple(round(0.06 + 0.02 * i, 2) for i in range(12))
 
-ENGINES: Final = {
-    "exudyn": ("exudyn", COMPILED),
-    "mujoco": ("mujoco", COMPILED),
-    "mujoco_contact": ("mujoco", "mujoco"),
-}
-"""Engine and contact by the name that the grid has for both."""
+ENGINES: Final = ("exudyn", "mujoco")
+"""The engines that are compared."""
 
 SHOWN_MI: Final = 0.15
 """MI of the walk that is drawn over time."""
@@ -39,8 +34,7 @@ SHOWN_MI: Final = 0.15
 
 def experiment(engine: str, **fields: Any) -> Experiment:
     """A walk in an engine."""
-    name, contact = ENGINES[engine]
-    return Experiment(duration=WALK_S, engine=name, contact=contact, **fields)
+    return Experiment(duration=WALK_S, engine=engine, **fields)
 
 
 def table(rows: Sequence[Row]) -> str:
@@ -76,7 +70,7 @@ def scenes(robot: Robot) -> list[Figure]:
 STUDY: Final = Study(
     "engines",
     experiment,
-    {"engine": tuple(ENGINES), "mi": MI_VALUES},
+    {"engine": ENGINES, "mi": MI_VALUES},
     methods=("apnc",),
     figures=figures.over_mi,
     scenes=scenes,

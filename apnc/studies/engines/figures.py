@@ -20,7 +20,6 @@ from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
 STYLES: Final = {
     "exudyn": ("Exudyn", theme.BLUE, "circle"),
     "mujoco": ("MuJoCo", theme.ORANGE, "diamond"),
-    "mujoco_contact": ("MuJoCo, its own contact", theme.GREEN, "triangle-up"),
 }
 """Label, colour and symbol by name of the engine."""
 

@@ -46,9 +46,9 @@ def cases() -> Iterator[tuple[str, list[Experiment]]]:
 def line(words: str, runs: list[Experiment]) -> dict[str, str]:
     """How often the trot forms in each engine, when [s], and what came instead."""
     cells = {"case": words}
-    for name, (engine, contact) in ENGINES.items():
-        found = [summarise(simulate(replace(r, engine=engine, contact=contact))) for r in runs]
-        cells[STYLES[name][0]] = _cell(found)
+    for engine in ENGINES:
+        found = [summarise(simulate(replace(run, engine=engine))) for run in runs]
+        cells[STYLES[engine][0]] = _cell(found)
     return cells
 
 

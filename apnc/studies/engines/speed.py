@@ -44,10 +44,10 @@ def measure(repeats: int = 15, ticks: int = 120) -> dict[Key, Cost]:
     for _ in range(repeats):
         for key in keys:
             times[key].append(_tick_s(*key, ticks))
-    finest = {engine: trot(GRADUAL, FINEST, *ENGINES[engine]) for engine in ENGINES}
+    finest = {engine: trot(GRADUAL, FINEST, engine) for engine in ENGINES}
     return {
         (engine, n): Cost(
-            float(errors(trot(GRADUAL, n, *ENGINES[engine]), finest[engine])["force_error"]),
+            float(errors(trot(GRADUAL, n, engine), finest[engine])["force_error"]),
             float(np.median(times[engine, n])),
         )
         for engine, n in keys
@@ -55,8 +55,7 @@ def measure(repeats: int = 15, ticks: int = 120) -> dict[Key, Cost]:
 
 
 def _tick_s(engine: str, steps: int, ticks: int) -> float:
-    name, contact = ENGINES[engine]
-    plant = plant_in(name)(robot(GRADUAL), options=PlantOptions(step=TICK / steps, contact=contact))
+    plant = plant_in(engine)(robot(GRADUAL), options=PlantOptions(step=TICK / steps))
     begin = time.process_time()
     for tick in range(ticks):
         plant.advance(*commands(tick), TICK)
