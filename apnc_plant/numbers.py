@@ -1,0 +1,153 @@
+"""Robots and conditions as the numbers that the plant in C reads."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Final, NamedTuple
+
+from apnc_plant.conditions import Conditions
+from apnc_plant.library import library
+from apnc_plant.robot.links import links_of
+from apnc_plant.robot.model import (
+    GRAVITY,
+    Contact,
+    Leg,
+    MassProperties,
+    RobotDescription,
+    Sensor,
+    Servo,
+)
+
+SUSPENSION: Final = (5000.0, 200.0, 50.0, 2.0)
+"""Of a held trunk: position [N/m], [N s/m], rotation [N m/rad], [N m s/rad].
+
+Close to critically damped for a robot of some kilograms, and stiff enough that legs swinging in
+the air move it by tenths of a millimetre.
+"""
+
+
+class Numbers(NamedTuple):
+    """A struct of C and the arrays it points to.
+
+    Args:
+        at: pointer to the struct, which lives as long as this object.
+        kept: what the struct points to.
+    """
+
+    at: Any
+    kept: tuple[Any, ...] = ()
+
+
+def robot_numbers(
+    robot: RobotDescription,
+    *,
+    side_offset: float = 0.0,
+    payload: float = 0.0,
+    gravity: float = GRAVITY,
+) -> Numbers:
+    """A robot as ``plant_robot``.
+
+    Args:
+        robot: the robot.
+        side_offset: sideways error of the trunk's own centre of mass [m].
+        payload: mass of the box on the trunk [kg].
+        gravity: downward acceleration [m/s^2].
+    """
+    ffi, _ = library()
+    legs = ffi.new("plant_leg[]", [leg_numbers(leg) for leg in robot.legs])
+    numbers = {
+        "legs": len(robot.legs),
+        "gravity": gravity,
+        "weight": robot.weight,
+        "trunk": _body(robot.trunk.loaded(side_offset, payload)),
+        "trunk_center": list(robot.trunk.center),
+        "trunk_size": list(robot.trunk.body.size),
+        "servo": servo_numbers(robot.servo),
+        "contact": contact_numbers(robot.contact),
+        "sensor": sensor_numbers(robot.sensor),
+        "suspension": SUSPENSION,
+        "leg": legs,
+    }
+    return Numbers(ffi.new("plant_robot *", numbers), (legs,))
+
+
+def leg_numbers(leg: Leg) -> dict[str, Any]:
+    """A leg as ``plant_leg``, for cffi."""
+    return {
+        "mount": list(leg.mount),
+        "hip": list(leg.outward(leg.hip_offset)),
+        "femur": leg.femur_length,
+        "tibia": leg.tibia_length,
+        "femur_angle": leg.femur_angle,
+        "tibia_angle": leg.tibia_angle,
+        "link": [_body(link.body) for link in links_of(leg)],
+    }
+
+
+def _body(body: MassProperties) -> dict[str, Any]:
+    rows = body.inertia
+    places = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    inertia = [float(rows[place]) for place in places]
+    return {"mass": float(body.mass), "com": [float(x) for x in body.com], "inertia": inertia}
+
+
+def servo_numbers(servo: Servo) -> dict[str, float]:
+    """A servo as ``plant_servo``, for cffi."""
+    return {
+        "stiffness": servo.stiffness,
+        "damping": servo.damping,
+        "stall_torque": servo.stall_torque,
+        "no_load_speed": servo.no_load_speed,
+        "reflected_inertia": servo.reflected_inertia,
+        "latency": servo.latency,
+        "slew_rate": servo.slew_rate,
+    }
+
+
+def contact_numbers(contact: Contact) -> dict[str, float]:
+    """A contact as ``plant_contact``, for cffi."""
+    return {
+        "foot_radius": contact.foot_radius,
+        "stiffness": contact.stiffness,
+        "damping": contact.damping,
+        "damping_depth": contact.damping_depth,
+        "friction": contact.friction,
+        "friction_speed": contact.friction_speed,
+    }
+
+
+def sensor_numbers(sensor: Sensor) -> dict[str, float | int]:
+    """A sensor as ``plant_sensor``, for cffi."""
+    return {
+        "delay": sensor.delay,
+        "time_constant": sensor.time_constant,
+        "noise": sensor.noise,
+        "norm": int(sensor.component == "norm"),
+    }
+
+
+def conditions_numbers(
+    conditions: Conditions, legs: tuple[str, ...], weight: float, raised: float = 0.0
+) -> Numbers:
+    """Conditions as ``plant_conditions``; the payload is the robot's.
+
+    Args:
+        conditions: the conditions.
+        legs: names of the robot's legs.
+        weight: of the robot without payload [N].
+        raised: height of the start over the one that ``held_at`` is measured from [m].
+    """
+    ffi, _ = library()
+    delivered = {leg: value * weight / 2.0 for leg, value in conditions.stuck.items()}
+    delivered |= dict.fromkeys(conditions.silent(legs), 0.0)
+    damaged = ffi.new("uint8_t[]", [leg in conditions.damaged for leg in legs])
+    stuck = ffi.new("double[]", [delivered.get(leg, math.nan) for leg in legs])
+    held = conditions.held_at is not None
+    numbers = {
+        "grf_noise": conditions.grf_noise,
+        "held": held,
+        "held_at": conditions.held_at - raised if conditions.held_at is not None else 0.0,
+        "damaged": damaged,
+        "stuck": stuck,
+    }
+    return Numbers(ffi.new("plant_conditions *", numbers), (damaged, stuck))

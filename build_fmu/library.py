@@ -1,0 +1,96 @@
+"""The robot in C as a shared library for this package itself: ready-made, from the cache, built."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.resources
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Final
+
+from build_fmu import compile as compiler
+from build_fmu.cache import cache_folder, write_atomically
+from build_fmu.platforms import PLATFORMS, BuildError, Platform, host_platform
+
+Progress = Callable[[str], None]
+
+READY: Final = Path(__file__).parent / "ready"
+"""Libraries that came with the installed package lie here, each named by its key."""
+
+NAME: Final = "apnc_plant"
+
+_FLAGS: Final = ("-fvisibility=default",)
+"""Beside those of every build; a library for Python shows its functions, an FMU hides them."""
+
+
+def plant_header() -> str:
+    """Text of ``plant.h``."""
+    return _root().joinpath("plant", "plant.h").read_text(encoding="utf-8")
+
+
+def sources() -> dict[str, bytes]:
+    """C files and headers by name."""
+    plant, core = _root().joinpath("plant"), _root().joinpath("core")
+    files = {entry.name: entry.read_bytes() for entry in plant.iterdir() if _is_c(entry.name)}
+    files |= {name: core.joinpath(name).read_bytes() for name in _OF_THE_CORE}
+    return dict(sorted(files.items()))
+
+
+_OF_THE_CORE: Final = ("elementary.h", "apnc_config.h", "apnc_variables.h")
+
+
+def _root() -> importlib.resources.abc.Traversable:
+    return importlib.resources.files("fmu_src")
+
+
+def _is_c(name: str) -> bool:
+    return name.endswith((".c", ".h"))
+
+
+def library_name(platform: Platform) -> str:
+    """Name of the ready library for a platform: what it is made from, but for the compiler."""
+    parts = [repr((compiler.FLAGS, _FLAGS, platform)).encode()]
+    for name, content in sources().items():
+        parts += [name.encode(), content]
+    return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16] + platform.suffix
+
+
+def library_path(
+    platform: str | None = None, progress: Progress = lambda platform: None
+) -> Path:
+    """Path of the library: one that came with the package, or from the cache, or built now.
+
+    Args:
+        platform: folder name of a platform; this machine's if omitted.
+        progress: called with the platform if anything is compiled.
+
+    Raises:
+        BuildError: no such platform, the compiler failed, or it is needed and not installed.
+        OSError: the cache folder cannot be written.
+    """
+    target = PLATFORMS[platform or host_platform()]
+    name = library_name(target)
+    ready = READY / name
+    if ready.is_file():
+        return ready
+    version = compiler.compiler_version()
+    path = cache_folder() / f"{ready.stem}-{version}" / f"{NAME}{target.suffix}"
+    if not path.is_file():
+        if not version:
+            raise BuildError(
+                "the robot in C did not come with the package for this machine, or its sources "
+                'were changed since, and the compiler is not installed: pip install "apnc[build]"'
+            )
+        progress(target.folder)
+        write_atomically(path, _built(target))
+    return path
+
+
+def _built(platform: Platform) -> bytes:
+    files = sources()
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            (Path(folder) / name).write_bytes(content)
+        c_files = [name for name in files if name.endswith(".c")]
+        return compiler.compile_library(Path(folder), c_files, platform, NAME, _FLAGS)
