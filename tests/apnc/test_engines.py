@@ -20,19 +20,16 @@ needs_mujoco = pytest.mark.skipif(
 )
 
 
-@pytest.mark.parametrize("contact", ["compiled", "mujoco"])
-def test_the_command_line_says_the_engine(contact: str) -> None:
-    experiment = Experiment(engine="mujoco", contact=contact)
+def test_the_command_line_says_the_engine() -> None:
+    experiment = Experiment(engine="mujoco")
     words = shlex.split(experiment.command())[2:]
     command = typer.main.get_command(app).commands["walk"]  # type: ignore[attr-defined]
     assert experiment_of(command.make_context("walk", words).params) == experiment
 
 
-def test_an_unknown_engine_and_the_contact_of_another_are_refused() -> None:
+def test_an_unknown_engine_is_refused() -> None:
     with pytest.raises(ValueError, match="engine 'cow' is not one of exudyn, mujoco"):
         Experiment(engine="cow")
-    with pytest.raises(ValueError, match="contact 'mujoco' is not one of compiled, exudyn"):
-        Experiment(contact="mujoco")
 
 
 def test_a_missing_package_is_one_line(
@@ -82,11 +79,10 @@ def test_what_cannot_be_exported_is_said(
 
 
 @needs_mujoco
-@pytest.mark.parametrize("contact", ["compiled", "mujoco"])
-def test_the_trot_forms_in_mujoco_as_in_exudyn(contact: str) -> None:
+def test_the_trot_forms_in_mujoco_as_in_exudyn() -> None:
     run = Experiment(mi=0.15, seed=1, duration=12.0)
     theirs = summarise(simulate(run))
-    record = simulate(Experiment(engine="mujoco", contact=contact, mi=0.15, seed=1, duration=12.0))
+    record = simulate(Experiment(engine="mujoco", mi=0.15, seed=1, duration=12.0))
     ours = summarise(record)
     assert ours.converged and theirs.converged
     assert ours.gait == theirs.gait == "trot"
@@ -108,12 +104,8 @@ def test_the_study_runs_every_engine_and_shows_them_side_by_side() -> None:
     from apnc.studies.engines import STUDY  # noqa: PLC0415
 
     trials = grid_of("engines", 2, chosen={"mi": ["0.15"]})
-    found = {(t.cell["engine"], t.experiment.engine, t.experiment.contact) for t in trials}
-    assert found == {
-        ("exudyn", "exudyn", "compiled"),
-        ("mujoco", "mujoco", "compiled"),
-        ("mujoco_contact", "mujoco", "mujoco"),
-    }
+    found = {(t.cell["engine"], t.experiment.engine) for t in trials}
+    assert found == {("exudyn", "exudyn"), ("mujoco", "mujoco")}
     rows = [
         {"study": "engines", **trial.cell, "convergence_time_s": 1.0 + k, "fell": False}
         for k, trial in enumerate(trials)
@@ -122,10 +114,9 @@ def test_the_study_runs_every_engine_and_shows_them_side_by_side() -> None:
     assert [line.split(" | ")[1:4] for line in table[2:]] == [
         ["Exudyn", "2/2 (16 ... 100 %)", "1.5 (1.0 ... 2.0)"],
         ["MuJoCo", "2/2 (16 ... 100 %)", "3.5 (3.0 ... 4.0)"],
-        ["MuJoCo, its own contact", "2/2 (16 ... 100 %)", "5.5 (5.0 ... 6.0)"],
     ]
     first = STUDY.figures(rows)[0]
-    assert [trace["y"] for trace in first.data] == [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]
+    assert [trace["y"] for trace in first.data] == [[1.0, 2.0], [3.0, 4.0]]
 
 
 def test_cost_at_equal_error_goes_along_the_powers_of_the_step() -> None:

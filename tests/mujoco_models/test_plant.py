@@ -1,4 +1,4 @@
-"""The plant in MuJoCo: the equations of motion of Exudyn's, and a contact of its own."""
+"""The plant in MuJoCo: the equations of motion of Exudyn's."""
 
 from __future__ import annotations
 
@@ -12,20 +12,22 @@ from odd_robot import odd_robot
 
 from apnc_plant.channels import PlantError
 from apnc_plant.conditions import Conditions, named_conditions
-from apnc_plant.ground import Ground, Kerb, Plane, Surface
+from apnc_plant.ground import Ground, Plane
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from exudyn_models.plant import Plant as ExudynPlant
 
 pytest.importorskip("mujoco")
 
+import own_contact_mujoco
+
+from apnc_plant.legged import LeggedPlant
 from mujoco_models.engine import mj
 from mujoco_models.plant import Plant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
 ROBOTS = [ROBOT, load_robot("hexapod"), odd_robot()]
-OWN = PlantOptions(contact="mujoco")
 
 
 def mass_matrices(robot: RobotDescription, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -33,7 +35,7 @@ def mass_matrices(robot: RobotDescription, q: np.ndarray) -> tuple[np.ndarray, n
     conditions = Conditions(payload=0.7)
     ours = Plant(robot, 3, conditions=conditions)._engine
     ours.data.qpos[:] = q
-    mj.mj_forward(ours.model, ours.data)
+    mj().mj_forward(ours.model, ours.data)
     theirs = ExudynPlant(robot, 3, conditions=conditions)._engine
     theirs.mbs.systemData.SetODE2Coordinates(q)
     return ours.mass_matrix(), theirs.mass_matrix()
@@ -63,10 +65,12 @@ def test_seed_conditions_and_sensor_are_those_of_every_plant() -> None:
     assert (ours.grf() > 1.0).all()
 
 
-@pytest.mark.parametrize("contact", ["compiled", "mujoco"])
+@pytest.mark.parametrize("kind", [Plant, own_contact_mujoco.Plant], ids=["ours", "its own"])
 @pytest.mark.parametrize("slope", [0.0, 0.1])
-def test_it_stands_on_a_plane_and_the_feet_carry_its_weight(contact: str, slope: float) -> None:
-    plant = Plant(ROBOT, options=PlantOptions(contact=contact), ground=Plane(slope=slope))
+def test_it_stands_on_a_plane_and_the_feet_carry_its_weight(
+    kind: type[LeggedPlant], slope: float
+) -> None:
+    plant = kind(ROBOT, ground=Plane(slope=slope))
     for _ in range(180):
         plant.advance(np.zeros(4), np.zeros(4), TICK)
     sample = plant.sample()
@@ -84,14 +88,14 @@ def test_it_stands_on_a_plane_and_the_feet_carry_its_weight(contact: str, slope:
     expected = ROBOT.contact.friction_speed * math.tan(slope) / ROBOT.contact.friction
     creep = np.linalg.norm(sample["velocity"])
     # own contact: the viscosity of half a weight per foot, four feet instead of two
-    share = 1.0 if contact == "compiled" else 0.5 * math.cos(slope)
+    share = 1.0 if kind is Plant else 0.5 * math.cos(slope)
     assert creep == pytest.approx(share * expected, rel=0.03, abs=1e-5)
 
 
 def test_a_sliding_foot_gets_no_extra_normal_force() -> None:
     """With the damping of the normal direction along the ground it would get hundreds of N s/m."""
     slippery = replace(ROBOT, contact=replace(ROBOT.contact, friction=0.1))
-    plant = Plant(slippery, options=OWN, ground=Plane(slope=0.3))
+    plant = own_contact_mujoco.Plant(slippery, ground=Plane(slope=0.3))
     for _ in range(60):
         plant.advance(np.zeros(4), np.zeros(4), TICK)
     assert np.linalg.norm(plant.sample()["velocity"]) > 1.0
@@ -110,23 +114,11 @@ def test_a_held_trunk_hangs_and_is_let_go() -> None:
     assert plant.sample()["foot_force"][:, 2].sum() == pytest.approx(ROBOT.weight, rel=0.01)
 
 
-@pytest.mark.parametrize("ground", [Ground(roughness=0.5), Kerb()], ids=repr)
-def test_own_contact_is_for_planes(ground: Surface) -> None:
-    with pytest.raises(ValueError, match="contact 'mujoco' knows planes without obstacles only"):
-        Plant(ROBOT, options=OWN, ground=ground)
-
-
-def test_the_contact_of_another_engine_is_named() -> None:
-    with pytest.raises(ValueError, match="contact 'exudyn' is not one of compiled, mujoco"):
-        Plant(ROBOT, options=PlantOptions(contact="exudyn"))
-
-
-@pytest.mark.parametrize("contact", ["compiled", "mujoco"])
 def test_a_motion_that_breaks_down_is_said_and_leaves_no_file(
-    contact: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)  # MuJoCo writes its warnings into the working folder
-    plant = Plant(ROBOT, options=PlantOptions(step=TICK, contact=contact))
+    plant = Plant(ROBOT, options=PlantOptions(step=TICK))
     with pytest.raises(PlantError, match="the motion diverged before t = "):
         for tick in range(600):
             plant.advance(np.full(4, math.sin(tick)), np.full(4, math.cos(tick)), TICK)

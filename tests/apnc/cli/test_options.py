@@ -72,7 +72,6 @@ EXPERIMENTS = st.builds(
     reset=over(st.booleans()),
     rate=st.floats(10, 1000),
     step=st.floats(1e-5, 1e-2),
-    contact=st.sampled_from(["compiled", "exudyn"]),
     fmu=st.none() | st.just("my own/Apnc.fmu"),
 )
 

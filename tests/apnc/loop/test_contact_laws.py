@@ -1,22 +1,39 @@
-"""The closed loop under the compiled contact and under Exudyn's own: the trot forms alike."""
+"""The closed loop under our contact and under the engines' own: the trot forms alike."""
 
 from __future__ import annotations
 
+import own_contact_exudyn
 import pytest
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
-from apnc.summary import summarise
+from apnc.summary import Summary, summarise
+from apnc_plant.legged import LeggedPlant
+from apnc_plant.options import PlantOptions
 
 
-def test_the_trot_forms_under_both_and_walks_alike() -> None:
-    figures = [
-        summarise(simulate(Experiment(mi=0.08, duration=20, contact=law)))
-        for law in ("compiled", "exudyn")
-    ]
-    for figure in figures:
-        assert figure.converged and not figure.fell
-    speeds = [figure.path_speed_m_per_s or 0.0 for figure in figures]
-    strides = [figure.stride_frequency_hz or 0.0 for figure in figures]
-    assert speeds[1] == pytest.approx(speeds[0], rel=0.2)
-    assert strides[1] == pytest.approx(strides[0], rel=0.1)
+def walked(experiment: Experiment, kind: type[LeggedPlant] | None = None) -> Summary:
+    """Summary of a walk, in a plant of this kind if one is given."""
+    options = PlantOptions(step=experiment.step)
+    plant = kind and kind(experiment.description, experiment.seed, options=options)
+    return summarise(simulate(experiment, plant=plant))
+
+
+def test_the_trot_forms_under_exudyns_contact_as_under_ours() -> None:
+    run = Experiment(mi=0.08, duration=20)
+    ours, its = walked(run), walked(run, own_contact_exudyn.Plant)
+    for summary in (ours, its):
+        assert summary.converged and not summary.fell
+    assert its.path_speed_m_per_s == pytest.approx(ours.path_speed_m_per_s, rel=0.2)
+    assert its.stride_frequency_hz == pytest.approx(ours.stride_frequency_hz, rel=0.1)
+
+
+def test_the_trot_forms_under_mujocos_contact_as_under_ours() -> None:
+    pytest.importorskip("mujoco")
+    import own_contact_mujoco  # noqa: PLC0415
+
+    run = Experiment(mi=0.15, seed=1, duration=12.0, engine="mujoco")
+    ours, its = walked(run), walked(run, own_contact_mujoco.Plant)
+    assert ours.converged and its.converged
+    assert ours.gait == its.gait == "trot"
+    assert its.stride_frequency_hz == pytest.approx(ours.stride_frequency_hz, rel=0.1)

@@ -40,7 +40,6 @@ from apnc_core.enumerations import Method
         ({"duration": 1e308}, "duration = 1e+308 s is not a positive time"),
         ({"duration": 0.008}, "duration = 0.008 s is not one tick; allowed: 0.01667 s and more"),
         ({"step": 0.0}, "step is 0.0"),
-        ({"contact": "glue"}, "contact 'glue' is not one of compiled, exudyn"),
         ({"settings": {"cow": 1}}, "parameter 'cow' is not one of"),
         ({"settings": {"method": "apc"}}, "method = apc is not set here, but by method"),
         ({"settings": {"phi_stored": [1.0]}}, "phi_stored has 1 values; 4 legs take 3 or none"),
@@ -103,9 +102,7 @@ CHANGES: list[dict[str, Any]] = [
     {"reset": True},
     {"rate": 50},
     {"step": 1e-3},
-    {"contact": "exudyn"},
     {"engine": "mujoco"},
-    {"engine": "mujoco", "contact": "mujoco"},
 ]
 
 

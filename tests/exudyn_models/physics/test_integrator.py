@@ -13,6 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from exudyn_feet import MarkedPlant
 
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import load_robot
@@ -41,10 +42,10 @@ def motion(
     acceleration: Callable[[float, float], float], step: float, steps: int, x: float, v: float
 ) -> tuple[float, float]:
     """Place and speed of a unit mass after so many steps of the plant's solver."""
-    container = exu.SystemContainer()
+    container = exu().SystemContainer()
     mbs = container.AddSystem()
     node = mbs.AddNode(
-        items.NodeGenericODE2(
+        items().NodeGenericODE2(
             referenceCoordinates=[0.0],
             initialCoordinates=[x],
             initialCoordinates_t=[v],
@@ -52,14 +53,14 @@ def motion(
         )
     )
     mbs.AddObject(
-        items.ObjectGenericODE2(
+        items().ObjectGenericODE2(
             nodeNumbers=[node],
             massMatrix=np.eye(1),
             forceUserFunction=lambda mbs, t, item, q, v: [acceleration(q[0], v[0])],
         )
     )
     mbs.Assemble()
-    settings, solver = _solver_settings(step), exu.MainSolverExplicit()
+    settings, solver = _solver_settings(step), exu().MainSolverExplicit()
     solver.InitializeSolver(mbs, settings)
     solver.it.maxStepSize = solver.it.currentStepSize = step
     solver.it.endTime = step * steps
@@ -139,13 +140,13 @@ def test_a_tick_is_the_sum_of_its_halves() -> None:
 
 
 def test_loads_are_those_of_place_and_speed_at_the_end_of_the_tick() -> None:
-    plant = Plant(ROBOT)
-    contact, velocity = ROBOT.contact, exu.OutputVariableType.Velocity
+    plant = MarkedPlant(ROBOT)
+    contact, velocity = ROBOT.contact, exu().OutputVariableType.Velocity
     touched = 0
     for tick in range(120):
         trot(plant, tick)
         sample = plant.sample()
-        for k, marker in enumerate(plant._engine.tree.feet):
+        for k, marker in enumerate(plant._engine.feet):
             depth = max(0.0, contact.foot_radius - sample["foot_position"][k, 2])
             rate = -plant._engine.mbs.GetMarkerOutput(marker, velocity)[2]
             onset = min(1.0, depth / contact.damping_depth)
@@ -180,7 +181,7 @@ def test_the_warning_stays_off_stdout_and_what_exudyn_says_else_does_not() -> No
         "from apnc_plant.robot import load_robot\n"
         "import numpy as np\n"
         "Plant(load_robot('lilibot')).advance(np.zeros(4), np.zeros(4), 0.1)\n"
-        "exu.Print('heard')\n"
+        "exu().Print('heard')\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert (done.stdout, done.stderr) == ("heard\n", "")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from exudyn_feet import MarkedPlant
 
 from apnc_plant.channels import PLANT_CHANNELS, PlantError
 from apnc_plant.options import PlantOptions
@@ -93,12 +94,13 @@ def test_a_dropped_robot_lands_and_stays_on_its_feet() -> None:
 
 
 def test_recorded_feet_are_where_the_engine_has_them() -> None:
-    plant = Plant(ROBOT)
+    plant = MarkedPlant(ROBOT)
     for tick in range(90):
         trot(plant, tick)
+    position = exu().OutputVariableType.Position
     markers = [
-        plant._engine.mbs.GetMarkerOutput(foot, variableType=exu.OutputVariableType.Position)
-        for foot in plant._engine.tree.feet
+        plant._engine.mbs.GetMarkerOutput(foot, variableType=position)
+        for foot in plant._engine.feet
     ]
     np.testing.assert_allclose(plant.sample()["foot_position"], markers, atol=1e-12)
 
