@@ -56,9 +56,7 @@ def library_name(platform: Platform) -> str:
     return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16] + platform.suffix
 
 
-def library_path(
-    platform: str | None = None, progress: Progress = lambda platform: None
-) -> Path:
+def library_path(platform: str | None = None, progress: Progress = lambda platform: None) -> Path:
     """Path of the library: one that came with the package, or from the cache, or built now.
 
     Args:
