@@ -44,7 +44,7 @@ def of(name: str, **cell: Any) -> list[Trial]:
         ("damage", 1, 1, ALL, 45.0),
         ("states", 1, 1, ("apnc", "apc", *RIVALS, "apnc_kept"), 34.0),
         ("contact", 12, 0, ("apnc",), 30.0),
-        ("engines", 36, 0, ("apnc",), 45.0),
+        ("engines", 24, 0, ("apnc",), 45.0),
     ],
 )
 def test_apnc_walks_every_cell_and_the_others_fewer_with_half_of_the_seeds(
