@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Final
 
@@ -145,19 +145,20 @@ def _formation(record: Record, touch: int | None) -> dict[str, Any]:
     time, o1, o2 = record.time, record.controller["o1"], record.controller["o2"]
     target = metrics.default_target(len(record.legs))
     late, broken = time >= time[-1:] - LATE_S, record.end in ("fell", "diverged")
-    known = target is not None and len(time) > 0
-
-    def when(criterion: Callable[..., float | None]) -> float | None:
-        return criterion(time, o1, o2, touch, target) if known and not broken else None
-
-    strict = when(metrics.convergence_time)
+    strict = authors = None
+    error = np.full(len(time), np.nan)
+    if target is not None:
+        error = metrics.phase_error(o1, o2, target)
+        if not broken:
+            strict = metrics.settling_time(time, error, touch)
+            authors = metrics.convergence_time_authors(time, o1, o2, touch, target)
     final = metrics.final_phases(o1, o2, 1.0 / record.experiment.rate)
-    error = metrics.phase_error(o1, o2, target) if target else np.full(len(time), np.nan)
+    known = target is not None and len(time) > 0
     stored = time[record.controller["kappa"] > 0.0]
     return {
         "converged": False if broken else strict is not None if known else None,
         "convergence_time_s": strict,
-        "convergence_time_authors_s": when(metrics.convergence_time_authors),
+        "convergence_time_authors_s": authors,
         "phi_target": target,
         "phi_final": tuple(final.tolist()),
         "gait": metrics.nearest_gait(final, metrics.STRICT_TOLERANCE),

@@ -13,6 +13,7 @@ from apnc.metrics.convergence import STRICT_TOLERANCE as STRICT_TOLERANCE
 from apnc.metrics.convergence import convergence_time as convergence_time
 from apnc.metrics.convergence import convergence_time_authors as convergence_time_authors
 from apnc.metrics.convergence import phase_error as phase_error
+from apnc.metrics.convergence import settling_time as settling_time
 from apnc.metrics.convergence import touch_moment as touch_moment
 from apnc.metrics.gaits import GAITS as GAITS
 from apnc.metrics.gaits import default_target as default_target

@@ -48,10 +48,18 @@ def convergence_time(
     None if the gait did not form, or has not lasted for a second when the run ends. Pitfall: a late
     excursion beyond 0.6 rad moves the time to after it.
     """
+    return None if touch is None else settling_time(time, phase_error(o1, o2, target), touch)
+
+
+def settling_time(time: Array, error: Array, touch: int | None) -> float | None:
+    """Time from the touch moment until an error (T,) stays within 0.6 rad [s].
+
+    The same as ``convergence_time``, for who has the ``phase_error`` already.
+    """
     if touch is None:
         return None
     # Written so that a NaN (undefined phase) counts as outside.
-    outside = np.flatnonzero(~(phase_error(o1, o2, target) <= STRICT_TOLERANCE))
+    outside = np.flatnonzero(~(error <= STRICT_TOLERANCE))
     start = max(int(outside[-1]) + 1 if len(outside) else 0, touch)
     if start >= len(time) or time[-1] - time[start] < STRICT_HOLD:
         return None

@@ -7,7 +7,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from apnc.metrics.smoothing import Array, smooth
+from apnc.metrics.smoothing import WINDOW, Array, smooth
+
+Phasors = NDArray[np.complex128]
 
 # Below this length the direction of a phasor is rounding noise.
 _NO_DIRECTION: Final = 1e-6
@@ -48,10 +50,10 @@ def final_phases(o1: Array, o2: Array, sample_time: float, span: float = 1.0) ->
 
     NaN where undefined. The mean is that of the phasors: one of angles near the cut is meaningless.
     """
-    phasors = _relative_phasors(o1, o2)
+    phasors = _last_phasors(o1, o2, sample_time, span)
     if len(phasors) == 0:
         return np.full(phasors.shape[1], np.nan)
-    return wrap_for_display(_angle(phasors[-_samples(sample_time, span) :].mean(axis=0)))
+    return wrap_for_display(_angle(phasors.mean(axis=0)))
 
 
 def coherence(o1: Array, o2: Array, sample_time: float, span: float) -> float | None:
@@ -60,14 +62,10 @@ def coherence(o1: Array, o2: Array, sample_time: float, span: float) -> float | 
     Length of the mean of exp(i phi_1k), smoothed phases, of the leg that has the least; None
     without samples. A phase that drifts evenly through x rad has 2/x sin(x/2).
     """
-    phases = relative_phases(o1, o2)[-_samples(sample_time, span) :]
+    phases = _angle(_last_phasors(o1, o2, sample_time, span))
     if len(phases) == 0:
         return None
     return float(np.abs(np.nan_to_num(np.exp(1j * phases)).mean(axis=0)).min())
-
-
-def _samples(sample_time: float, span: float) -> int:
-    return max(1, round(span / sample_time))
 
 
 def phase_difference_authors(o1: Array, o2: Array) -> Array:
@@ -84,7 +82,7 @@ def phase_difference_authors(o1: Array, o2: Array) -> Array:
     return result
 
 
-def _relative_phasors(o1: Array, o2: Array) -> NDArray[np.complex128]:
+def _relative_phasors(o1: Array, o2: Array) -> Phasors:
     """Smoothed unit phasors exp(i phi_1k) for k = 2..n, shape (T, n - 1).
 
     Real and imaginary part are smoothed, so a phase that passes pi is no step. Where a CPG rests at
@@ -94,9 +92,18 @@ def _relative_phasors(o1: Array, o2: Array) -> NDArray[np.complex128]:
     z = o1 - 1j * o2
     product = z[:, 1:] * np.conj(z[:, :1])
     length = np.abs(product)
-    unit = np.divide(product, length, out=np.zeros_like(product), where=length > 0)
-    return smooth(unit.real) + 1j * smooth(unit.imag)
+    unit = np.zeros(product.shape, np.complex128)  # by rows, whatever the order of the outputs
+    np.divide(product, length, out=unit, where=length > 0)
+    smoothed: Phasors = smooth(unit.view(np.float64)).view(np.complex128)
+    return smoothed
 
 
-def _angle(phasors: NDArray[np.complex128]) -> Array:
+def _last_phasors(o1: Array, o2: Array, sample_time: float, span: float) -> Phasors:
+    """The relative phasors of the last ``span`` [s]; a window before it is all they depend on."""
+    count = max(1, round(span / sample_time))
+    needed = slice(-count - WINDOW, None)
+    return _relative_phasors(o1[needed], o2[needed])[-count:]
+
+
+def _angle(phasors: Phasors) -> Array:
     return np.where(np.abs(phasors) > _NO_DIRECTION, np.angle(phasors), np.nan)

@@ -6,12 +6,12 @@ the ground twice in a cycle has made one stride: its contacts are merged into on
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from itertools import pairwise
-from typing import Any, Final
+from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import grey_opening
 
 from apnc.metrics.motion import MIN_SPEED
 from apnc.metrics.phases import cpg_phase
@@ -41,8 +41,7 @@ def stance(force: Array) -> Bool:
     largest = max(float(np.quantile(force[:, 0], PEAK_QUANTILE)), 0.0)
     standing = force > STANCE_SHARE * largest
     # Gaps first: a contact cut in two by one lost sample must not be removed as two short ones.
-    filled = [_fill_short(column, False) for column in standing.T]
-    return np.stack([_fill_short(column, True) for column in filled], axis=1)
+    return _without_short(~_without_short(~standing))
 
 
 def cycle_starts(o1: Array, o2: Array) -> list[Array]:
@@ -80,7 +79,7 @@ def duty_factors(standing: Bool, starts: Sequence[Array]) -> list[float | None]:
 
     Pitfall: 1 for a leg whose oscillator runs but whose foot never leaves the ground.
     """
-    return _means(_per_stride(standing, starts, np.mean))
+    return _means(_stance_shares(standing, starts))
 
 
 def touch_downs_per_stride(standing: Bool, starts: Sequence[Array]) -> list[float | None]:
@@ -90,7 +89,7 @@ def touch_downs_per_stride(standing: Bool, starts: Sequence[Array]) -> list[floa
     """
     down = np.zeros(standing.shape)
     down[1:] = standing[1:] & ~standing[:-1]
-    return _means(_per_stride(down, starts, np.sum))
+    return _means(_sums(down, starts))
 
 
 def coordination(standing: Bool, starts: Sequence[Array], speed: float | None) -> float | None:
@@ -99,7 +98,7 @@ def coordination(standing: Bool, starts: Sequence[Array], speed: float | None) -
     None if a leg made fewer than two strides, if the strides do not vary at all, or if the robot
     stands: feet that never lift vary least of all, which is no coordination.
     """
-    shares = _per_stride(standing, starts, np.mean)
+    shares = _stance_shares(standing, starts)
     if speed is None or speed < MIN_SPEED or min(len(s) for s in shares) < 2:
         return None
     spread = max(float(s.std()) for s in shares)
@@ -114,12 +113,13 @@ def foot_lifts(foot_position: Array, standing: Bool, starts: Sequence[Array]) ->
     without stance does not count. Pitfall: mid-swing is the oscillator's; the servos follow some
     hundredths of a second later, and the foot may be highest at another moment.
     """
+    height = foot_position[..., 2]
+    samples, heights = _sums(standing, starts), _sums(np.where(standing, height, 0.0), starts)
     lifts = []
-    for z, s, begin in zip(foot_position[..., 2].T, standing.T, starts, strict=True):
-        high = pairwise(np.interp(begin, np.arange(len(z)), z) if len(begin) else begin)
-        strides = zip(high, pairwise(np.ceil(begin).astype(int)), strict=True)
-        lift = [sum(ends) / 2 - z[a:b][s[a:b]].mean() for ends, (a, b) in strides if s[a:b].any()]
-        lifts.append(np.array(lift))
+    for z, begin, count, total in zip(height.T, starts, samples, heights, strict=True):
+        high = np.interp(begin, np.arange(len(z)), z) if len(begin) else begin
+        stood = count > 0
+        lifts.append((high[:-1] + high[1:])[stood] / 2 - total[stood] / count[stood])
     return _means(lifts)
 
 
@@ -129,20 +129,29 @@ def slips(foot_position: Array, standing: Bool, starts: Sequence[Array]) -> list
     Pitfall: the centre of a ball that rolls without slipping moves too, by its radius times the
     angle the leg turns: about 4 mm for Lilibot.
     """
-    steps = np.diff(foot_position[..., :2], axis=0)
+    x, y = np.diff(foot_position[..., 0], axis=0), np.diff(foot_position[..., 1], axis=0)
     way = np.zeros(standing.shape)
-    way[1:] = np.linalg.norm(steps, axis=2) * (standing[1:] & standing[:-1])
-    return _means(_per_stride(way, starts, np.sum))
+    way[1:] = np.sqrt(x**2 + y**2) * (standing[1:] & standing[:-1])
+    return _means(_sums(way, starts))
 
 
-def _per_stride(
-    values: Array | Bool, starts: Sequence[Array], figure: Callable[[Any], float]
-) -> list[Array]:
-    """The figure of the values (T, n) in every stride, one array per leg."""
-    return [
-        np.array([figure(column[a:b]) for a, b in pairwise(np.ceil(s).astype(int))])
-        for column, s in zip(values.T, starts, strict=True)
-    ]
+def _stance_shares(standing: Bool, starts: Sequence[Array]) -> list[Array]:
+    """Share of stance in every stride, one array per leg."""
+    lengths = (np.diff(_firsts(begin)) for begin in starts)
+    return [time / length for time, length in zip(_sums(standing, starts), lengths, strict=True)]
+
+
+def _sums(values: Array | Bool, starts: Sequence[Array]) -> list[Array]:
+    """Sum of the values (T, n) over every stride, one array per leg."""
+    columns = zip(values.T, map(_firsts, starts), strict=True)
+    # Each stride has samples, as reduceat needs: in a tick an unwrapped phase moves by half a turn
+    # at most. After the last start no whole stride is left.
+    return [np.add.reduceat(column, at, dtype=np.float64)[:-1] for column, at in columns]
+
+
+def _firsts(begin: Array) -> NDArray[np.intp]:
+    """First samples of the strides of a leg."""
+    return np.ceil(begin).astype(np.intp)
 
 
 def _means(figures: Sequence[Array]) -> list[float | None]:
@@ -158,10 +167,9 @@ def _passages(phase: Array) -> Array:
     return np.interp(passed, phase, np.arange(len(phase)))
 
 
-def _fill_short(signal: Bool, value: bool) -> Bool:
-    """Flip runs of ``value`` below three samples, but none cut off by an end."""
-    result = signal.copy()
-    for a, b in pairwise(np.flatnonzero(np.diff(signal)) + 1):
-        if signal[a] == value and b - a < MIN_RUN:
-            result[a:b] = not value
-    return result
+def _without_short(signals: Bool) -> Bool:
+    """The signals (T, n) without runs of True below three samples, but for those cut by an end."""
+    spare = MIN_RUN - 1  # makes what an end may have cut as long as it may have been
+    longer = np.pad(signals, ((spare, spare), (0, 0)), mode="edge")
+    opened: Bool = grey_opening(longer, (MIN_RUN, 1))
+    return opened[spare:-spare]

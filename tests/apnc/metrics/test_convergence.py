@@ -164,3 +164,14 @@ def test_target_of_the_wrong_length_is_refused() -> None:
     for criterion in (metrics.convergence_time, metrics.convergence_time_authors):
         with pytest.raises(ValueError, match=r"^target \[3\.14.*\] does not have 3 phases$"):
             criterion(t, o1, o2, 0, TRIPOD)
+
+
+@pytest.mark.parametrize(
+    ("touch", "expected"), [(0, 4.0), (90, 2.5), (300, 0.0), (539, 0.0), (540, None), (None, None)]
+)
+def test_an_error_settles_when_it_stays_within_the_tolerance(
+    touch: int | None, expected: float | None
+) -> None:
+    time = np.arange(600) / RATE
+    error = np.where((time < 1.0) | ((time >= 2.0) & (time < 4.0)), 0.61, 0.59)
+    assert metrics.settling_time(time, error, touch) == expected

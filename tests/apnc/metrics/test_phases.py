@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from records import RATE, outputs, steady
+from scipy.signal import savgol_filter
 
 from apnc import metrics
 
@@ -47,6 +48,15 @@ def test_coherence_is_that_of_an_even_drift(drift: float) -> None:
     found = metrics.coherence(*outputs(theta), 1.0 / RATE, 5.0)
     # smoothing reaches over the end, where the drift is not even
     assert found == pytest.approx(abs(np.sinc(drift / 2 / PI)), abs=0.08)
+
+
+@pytest.mark.parametrize("samples", [40, 90, 330, 400, 900])
+def test_coherence_is_of_the_smoothed_phases_at_the_end(samples: int) -> None:
+    steps = np.random.default_rng(0).normal(0.0, 0.4, (samples, 4))
+    o1, o2 = outputs(steps.cumsum(axis=0))
+    phases = metrics.relative_phases(o1, o2)[-300:]
+    expected = np.abs(np.exp(1j * phases).mean(axis=0)).min()
+    assert metrics.coherence(o1, o2, 1.0 / RATE, 5.0) == pytest.approx(expected, rel=1e-12)
 
 
 def test_coherence_of_nothing_and_of_an_oscillator_at_rest() -> None:
@@ -172,6 +182,23 @@ def test_smoothing_of_one_peak(samples: int, half: int) -> None:
     smoothed = metrics.smooth(peak)
     assert smoothed[samples // 2] == pytest.approx(weight)
     assert peak[samples // 2] == 1.0
+
+
+@pytest.mark.parametrize(("samples", "window"), [(3, 3), (90, 89), (91, 91), (92, 91), (400, 91)])
+def test_smoothing_is_the_filter_of_the_authors(samples: int, window: int) -> None:
+    values = np.random.default_rng(0).normal(size=(samples, 2, 3)).cumsum(axis=0)
+    expected = savgol_filter(values, window, 2, axis=0)
+    scale = np.abs(expected).max()
+    np.testing.assert_allclose(metrics.smooth(values), expected, rtol=0.0, atol=1e-12 * scale)
+
+
+def test_a_value_that_is_not_finite_spoils_no_more_than_its_window() -> None:
+    values = np.zeros((400, 2))
+    values[200, 0] = np.nan
+    assert np.flatnonzero(np.isnan(metrics.smooth(values)).any(axis=1)).tolist() == [
+        *range(155, 246)
+    ]
+    assert not np.isnan(metrics.smooth(values)[:, 1]).any()
 
 
 @pytest.mark.parametrize("samples", [0, 1, 2])

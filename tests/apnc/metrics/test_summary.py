@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import fields, replace
 from typing import Any
 
@@ -379,3 +380,15 @@ def test_a_fall_at_once_is_no_walk_to_measure(duration: float, measured: bool) -
     assert summary.fell and not summary.converged
     assert (summary.path_speed_m_per_s is not None) is measured
     assert (summary.balance is not None) is measured
+
+
+@pytest.mark.parametrize(
+    "laid_out", [np.asfortranarray, lambda values: np.stack([values] * 8, axis=-1)[..., 3]]
+)
+def test_channels_may_lie_in_memory_in_any_order(
+    laid_out: Callable[[np.ndarray], np.ndarray],
+) -> None:
+    walk = synthetic_record(10.0, formation=(1.0, 3.0))
+    channels = {name: laid_out(v) for name, v in {**walk.plant, **walk.controller}.items()}
+    assert not channels["o1"].flags.c_contiguous
+    assert summarise(with_channels(walk, **channels)) == summarise(walk)
