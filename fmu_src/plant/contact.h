@@ -5,12 +5,12 @@
 #include "vectors.h"
 
 typedef struct {
-    B radius;        /* [m] of the foot ball */
-    B stiffness;     /* [N/m] k */
-    B damping;       /* [N s/m] c */
-    B per_depth;     /* [1/m] one over the depth d_c over which the damping sets in */
-    B friction;      /* [1] mu */
-    B slow;          /* [m/s] below this sliding speed friction is proportional to it */
+    B radius;    /* [m] of the foot ball */
+    B stiffness; /* [N/m] k */
+    B damping;   /* [N s/m] c */
+    B per_depth; /* [1/m] one over the depth d_c over which the damping sets in */
+    B friction;  /* [1] mu */
+    B slow;      /* [m/s] below this sliding speed friction is proportional to it */
 } contact_numbers;
 
 /* Normal: max(0, k d + c min(1, d/d_c) d'), so that damping sets in with the depth d instead of
@@ -30,8 +30,8 @@ INL v3 contact_force(const contact_numbers *c, v3 normal, V depth, v3 velocity, 
     const V pressed = v_select(depth > 0.0, v_max(spring, zero), zero);
     const v3 sliding = v_add(velocity, v_scale(approach, normal));
     const V grip = wide(c->friction) * pressed;
-    const V speed = v_max(v_max(v_sqrt(v_dot(sliding, sliding)), wide(c->slow)),
-                          grip * wide(stopping));
+    const V speed =
+        v_max(v_max(v_sqrt(v_dot(sliding, sliding)), wide(c->slow)), grip * wide(stopping));
     *press = pressed;
     return v_sub(v_scale(pressed, normal), v_scale(grip / speed, sliding));
 }

@@ -91,8 +91,8 @@ static inline int32_t ground_kerb(double x, double z, double radius, const doubl
 }
 
 /* The nearest point (u, v, h(u, v)) of z = a (sin(k u) + sin(k v)), by Newton's method. */
-static inline int32_t ground_waves(double x, double y, double z, double radius,
-                                   const double *reals, double *found) {
+static inline int32_t ground_waves(double x, double y, double z, double radius, const double *reals,
+                                   double *found) {
     const double a = reals[0], k = reals[1];
     double u = x, v = y, su, cu, sv, cv;
     for (int i = 0; i < 20; i++) {
@@ -126,11 +126,14 @@ static inline int32_t ground_touches(const plant_ground *ground, double x, doubl
     switch (ground->kind) {
     case PLANT_OBSTACLES:
         return ground_obstacles(x, y, z, radius, ground->reals, ground->integers, found);
-    case PLANT_KERB: return ground_kerb(x, z, radius, ground->reals, found);
-    case PLANT_WAVES: return ground_waves(x, y, z, radius, ground->reals, found);
+    case PLANT_KERB:
+        return ground_kerb(x, z, radius, ground->reals, found);
+    case PLANT_WAVES:
+        return ground_waves(x, y, z, radius, ground->reals, found);
     case PLANT_OWN:
         return ground->touch(x, y, z, radius, ground->reals, ground->integers, found);
-    default: return ground_plane(z, radius, found);
+    default:
+        return ground_plane(z, radius, found);
     }
 }
 

@@ -43,7 +43,8 @@
 
 /* An angle less the nearest multiple of pi / 2 [rad], in three parts. */
 #define LANES_REST(x, n)                                                                           \
-    ((((x) - (n) * 1.5707963267341256) - (n) * 6.077100506303966e-11) - (n) * 2.0222662487959506e-21)
+    ((((x) - (n) * 1.5707963267341256) - (n) * 6.077100506303966e-11) -                            \
+     (n) * 2.0222662487959506e-21)
 
 /* Single numbers. */
 INL double s_select(int m, double a, double b) { return m ? a : b; }
@@ -66,14 +67,14 @@ INL void s_sin_cos(double x, double *sine, double *cosine) {
 #if PLANT_WIDTH == 1
 
 typedef double V;
-#define v_select  s_select
-#define v_min     s_min
-#define v_max     s_max
-#define v_abs     s_abs
-#define v_sqrt    s_sqrt
-#define v_sin_cos s_sin_cos
-#define v_all(x)  (x)
-#define V_AT(v, i) (v)
+#define v_select   s_select
+#define v_min      s_min
+#define v_max      s_max
+#define v_abs      s_abs
+#define v_sqrt     s_sqrt
+#define v_sin_cos  s_sin_cos
+#define v_all(x)   (x)
+#define V_AT(v, i) ((&(v))[0 * (i)])
 
 #else
 
@@ -125,7 +126,7 @@ typedef double B;
 #define b_sqrt               s_sqrt
 #define b_sin_cos            s_sin_cos
 #define b_all(x)             (x)
-#define B_AT(b, i)           (b)
+#define B_AT(b, i)           ((&(b))[0 * (i)])
 #define wide(b)              v_all(b)
 #else
 typedef V B;

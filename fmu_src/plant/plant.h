@@ -79,17 +79,17 @@ typedef struct {
 
 /* A robot as numbers. */
 typedef struct {
-    int32_t legs;             /* 2 to 64 */
-    double gravity;           /* [m/s^2] downward */
-    double weight;            /* [N] without payload: scale of the sensors' noise */
-    plant_body trunk;         /* with the payload and the seeded error of its centre of mass */
-    double trunk_center[3];   /* [m] middle of the box that must not touch the ground */
-    double trunk_size[3];     /* [m] edges of that box */
-    plant_servo servo;        /* */
-    plant_contact contact;    /* */
-    plant_sensor sensor;      /* */
+    int32_t legs;                /* 2 to 64 */
+    double gravity;              /* [m/s^2] downward */
+    double weight;               /* [N] without payload: scale of the sensors' noise */
+    plant_body trunk;            /* with the payload and the seeded error of its centre of mass */
+    double trunk_center[3];      /* [m] middle of the box that must not touch the ground */
+    double trunk_size[3];        /* [m] edges of that box */
+    plant_servo servo;           /* */
+    plant_contact contact;       /* */
+    plant_sensor sensor;         /* */
     plant_suspension suspension; /* */
-    const plant_leg *leg;     /* one per leg */
+    const plant_leg *leg;        /* one per leg */
 } plant_robot;
 
 /* Where a ball touches a ground, in the frame of the ground.
@@ -123,11 +123,11 @@ typedef struct {
 
 /* What is wrong with a robot. */
 typedef struct {
-    double grf_noise;       /* [1] standard deviation over half the weight, on top of the sensors' */
-    int32_t held;           /* 1: the trunk is held level */
-    double held_at;         /* [m] height above its start at which it is held */
+    double grf_noise; /* [1] standard deviation over half the weight, on top of the sensors' */
+    int32_t held;     /* 1: the trunk is held level */
+    double held_at;   /* [m] height above its start at which it is held */
     const uint8_t *damaged; /* per leg, 1: hip and knee are held at 0; NULL: none */
-    const double *stuck;    /* [N] per leg, what its sensor delivers; not a number: it works; NULL */
+    const double *stuck; /* [N] per leg, what its sensor delivers; not a number: it works; NULL */
 } plant_conditions;
 
 /* How the lanes of a plant are computed; the bits are those of PLANT_SCALAR. */
@@ -230,7 +230,8 @@ void plant_forces(const plant_robot *robot, const plant_ground *ground, const do
                   int32_t touches, double dt, double *work, double *out);
 
 /* Whether a trunk at these six coordinates has tipped by more than 60 degrees from the normal of
- * the ground, or touches it with a corner. found: room for the places of contact, as plant_touch. */
+ * the ground, or touches it with a corner. found: room for the places of contact, as plant_touch.
+ */
 int32_t plant_fallen(const plant_robot *robot, const plant_ground *ground, const double *q,
                      double *found);
 

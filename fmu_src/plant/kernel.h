@@ -1,0 +1,35 @@
+/* A way to compute a plant: what includes this names it (PLANT_KERNEL), says how wide it is (see
+ * lanes.h) and for which instructions (PLANT_TARGET, empty: those that the compiler takes anyway).
+ */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "plant.h"
+
+#if defined(PLANT_TARGET) && defined(__clang__)
+#define KERNEL_TEXT(x)   #x
+#define KERNEL_PRAGMA(x) _Pragma(KERNEL_TEXT(x))
+KERNEL_PRAGMA(clang attribute push(__attribute__((target(PLANT_TARGET))), apply_to = function))
+#elif defined(PLANT_TARGET)
+#pragma GCC push_options
+#define KERNEL_TEXT(x)   #x
+#define KERNEL_PRAGMA(x) _Pragma(KERNEL_TEXT(x))
+KERNEL_PRAGMA(GCC target(PLANT_TARGET))
+#endif
+
+#include "tick.h"
+
+static void advance(void *plant, const plant_ground *const *grounds, double duration, double step) {
+    advance_tick(plant, grounds, duration, step);
+}
+
+const plant_kernel PLANT_KERNEL = {PLANT_WIDTH, PLANT_ROBOTS_ABREAST, advance};
+
+#if defined(PLANT_TARGET) && defined(__clang__)
+#pragma clang attribute pop
+#elif defined(PLANT_TARGET)
+#pragma GCC pop_options
+#endif

@@ -1,0 +1,105 @@
+/* The numbers of a caller turned into those that the equations of motion need, for one robot. */
+#ifndef PLANT_NUMBERS_H
+#define PLANT_NUMBERS_H
+
+#include "plant.h"
+#include "robot.h"
+
+/* Inertia about the frame of the link, by the parallel-axis theorem. */
+static inline v_inertia about_frame(const plant_body *body) {
+    const double m = body->mass, x = body->com[0], y = body->com[1], z = body->com[2];
+    const double *i = body->inertia;
+    return (v_inertia){m,
+                       {m * x, m * y, m * z},
+                       i[0] + m * (y * y + z * z),
+                       i[1] + m * (x * x + z * z),
+                       i[2] + m * (x * x + y * y),
+                       i[3] - m * x * y,
+                       i[4] - m * x * z,
+                       i[5] - m * y * z};
+}
+
+static inline void set_leg(leg_numbers *n, const plant_leg *leg) {
+    n->mount = (v3){leg->mount[0], leg->mount[1], leg->mount[2]};
+    n->hip = (v3){leg->hip[0], leg->hip[1], leg->hip[2]};
+    n->femur = leg->femur;
+    n->tibia = leg->tibia;
+    n->femur_angle = leg->femur_angle;
+    n->tibia_angle = leg->tibia_angle;
+    for (int i = 0; i < 3; i++) n->link[i] = about_frame(&leg->link[i]);
+}
+
+static inline servo_numbers servo_of(const plant_servo *servo) {
+    return (servo_numbers){servo->stiffness, servo->damping, servo->stall_torque,
+                           1.0 / servo->no_load_speed};
+}
+
+static inline void set_servo(robot_numbers *n, const plant_servo *servo) {
+    n->servo = servo_of(servo);
+    n->reflected_inertia = servo->reflected_inertia;
+    n->slew_rate = servo->slew_rate;
+}
+
+static inline contact_numbers contact_of(const plant_contact *contact) {
+    return (contact_numbers){contact->foot_radius, contact->stiffness,
+                             contact->damping,     1.0 / contact->damping_depth,
+                             contact->friction,    contact->friction_speed};
+}
+
+static inline void set_sensor(robot_numbers *n, const plant_sensor *sensor) {
+    n->time_constant = sensor->time_constant;
+    n->noise = n->deviation = sensor->noise * n->half_weight;
+    n->norm = sensor->norm ? 1.0 : 0.0;
+}
+
+/* Rotation from a ground to the world. */
+static inline rotation rotation_of(const plant_ground *ground) {
+    double s, c;
+    s_sin_cos(ground->slope, &s, &c);
+    return (rotation){{c, 0.0, -s}, {0.0, 1.0, 0.0}, {s, 0.0, c}};
+}
+
+static inline void set_robot(robot_numbers *n, const plant_robot *robot,
+                             const plant_ground *ground) {
+    const double *center = robot->trunk_center, *size = robot->trunk_size;
+    const plant_suspension *s = &robot->suspension;
+    const v_inertia trunk = about_frame(&robot->trunk);
+    n->trunk = (b_inertia){trunk.m,  {trunk.h.x, trunk.h.y, trunk.h.z},
+                           trunk.xx, trunk.yy,
+                           trunk.zz, trunk.xy,
+                           trunk.xz, trunk.yz};
+    n->gravity = robot->gravity;
+    n->half_weight = robot->weight / 2.0;
+    set_servo(n, &robot->servo);
+    n->contact = contact_of(&robot->contact);
+    set_sensor(n, &robot->sensor);
+    n->hold[0] = s->stiffness;
+    n->hold[1] = s->damping;
+    n->hold[2] = s->angular_stiffness;
+    n->hold[3] = s->angular_damping;
+    n->ground = rotation_of(ground);
+    n->top = ground->top;
+    n->box_center = (b3){center[0], center[1], center[2]};
+    n->box_half = (b3){size[0] / 2.0, size[1] / 2.0, size[2] / 2.0};
+}
+
+/* At rest at coordinates as plant_place takes them; the servos are told to stay there. */
+static inline void set_start(const plant_parts *p, const double *coordinates, double height) {
+    trunk_state *t = p->trunk;
+    for (int i = 0; i < 6; i++) t->start[i] = coordinates[i];
+    t->x = (b3){coordinates[0], coordinates[1], coordinates[2] + height};
+    t->yaw = coordinates[3];
+    t->pitch = coordinates[4];
+    t->roll = coordinates[5];
+    for (int32_t leg = 0; leg < p->legs; leg++) {
+        leg_state *s = &p->state[leg];
+        for (int j = 0; j < 3; j++) {
+            const double angle = coordinates[6 + 3 * leg + j];
+            s->q[j] = s->target[j] = s->asked[j] = s->commanded[j] = j ? -angle : angle;
+        }
+        s->sound = 1.0;
+        s->stuck = NAN;
+    }
+}
+
+#endif

@@ -1,0 +1,317 @@
+/* Plants of any kind: their bytes, robots put in and read out, and the plain way to compute them.
+ */
+#define PLANT_KERNEL plant_kernel_scalar
+#define PLANT_WIDTH  1
+#include "kernel.h"
+
+#include "foot_mass.h"
+#include "numbers.h"
+#include "targets.h"
+
+static const plant_kernel *kernel_of(int32_t kind, int32_t level) {
+#ifdef PLANT_HAS_X86
+    if (kind == PLANT_LEGS && level >= PLANT_AVX2) return &plant_kernel_legs_avx2;
+    if (kind == PLANT_ROBOTS && level == PLANT_AVX512) return &plant_kernel_robots_avx512;
+    if (kind == PLANT_ROBOTS && level == PLANT_AVX2) return &plant_kernel_robots_avx2;
+#endif
+#ifdef PLANT_HAS_VECTORS
+    if (kind == PLANT_LEGS) return &plant_kernel_legs;
+    if (kind == PLANT_ROBOTS) return &plant_kernel_robots;
+#endif
+    (void)level;
+    return kind >= PLANT_SCALAR && kind <= PLANT_ROBOTS ? &plant_kernel_scalar : NULL;
+}
+
+int32_t plant_lanes(int32_t kind, int32_t level) {
+    const plant_kernel *kernel = kernel_of(kind, level);
+    return kernel ? kernel->robots : 0;
+}
+
+const char *plant_level_name(int32_t level) {
+    static const char *const names[] = {"baseline", "avx2", "avx512"};
+    return level >= PLANT_BASELINE && level <= PLANT_AVX512 ? names[level] : "unknown";
+}
+
+static size_t aligned(size_t size) {
+    return (size + PLANT_ALIGNMENT - 1) / PLANT_ALIGNMENT * PLANT_ALIGNMENT;
+}
+
+/* Where the parts lie; the scratch of a kind with several lanes is a plant of one. */
+static plant_header layout(int32_t kind, int32_t level, int32_t legs, int32_t contacts,
+                           int32_t history) {
+    plant_header h;
+    const plant_kernel *kernel = kernel_of(kind, level);
+    memset(&h, 0, sizeof h);
+    if (!kernel || legs < 2 || legs > 64 || contacts < 0 || history < 1) return h;
+    h.kind = kind;
+    h.level = level;
+    h.legs = legs;
+    h.contacts = contacts;
+    h.history = history;
+    h.width = kernel->width;
+    h.robots = kernel->robots;
+    h.groups = h.robots == h.width ? legs : (legs + h.width - 1) / h.width;
+    const size_t width = (size_t)h.width, robots = (size_t)h.robots, groups = (size_t)h.groups;
+    size_t at = aligned(sizeof h);
+    const struct {
+        size_t *place, size;
+    } parts[] = {
+        {&h.robot, robots * sizeof(robot_numbers)},
+        {&h.leg, width * groups * sizeof(leg_numbers)},
+        {&h.trunk, robots * sizeof(trunk_state)},
+        {&h.state, width * groups * sizeof(leg_state)},
+        {&h.kept, width * groups * sizeof(leg_kept)},
+        {&h.coming, width * groups * 3 * (size_t)history * sizeof(double)},
+        {&h.loads, width * groups * (size_t)history * sizeof(double)},
+        {&h.found, width * 4 * (size_t)contacts * sizeof(double)},
+        {&h.waits, (size_t)history * sizeof(double)},
+        {&h.spans, (size_t)history * sizeof(double)},
+    };
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        *parts[i].place = at;
+        at = aligned(at + parts[i].size);
+    }
+    h.scratch = at;
+    if (h.width > 1) at += layout(PLANT_SCALAR, PLANT_BASELINE, legs, contacts, 1).end;
+    h.end = at;
+    return h;
+}
+
+size_t plant_size(int32_t kind, int32_t level, int32_t legs, int32_t contacts, int32_t history) {
+    return layout(kind, level, legs, contacts, history).end;
+}
+
+int32_t plant_history(double latency, double delay, double Ts) {
+    return (int32_t)ceil((latency > delay ? latency : delay) / Ts) + 3;
+}
+
+void plant_create(void *memory, int32_t kind, int32_t level, int32_t legs, int32_t contacts,
+                  int32_t history) {
+    const plant_header h = layout(kind, level, legs, contacts, history);
+    memset(memory, 0, h.end);
+    memcpy(memory, &h, sizeof h);
+    for (int32_t robot = 0; robot < h.robots; robot++)
+        ((plant_header *)memory)->fares[robot] = PLANT_DIVERGED; /* nobody is there */
+    if (h.width > 1)
+        plant_create((char *)memory + h.scratch, PLANT_SCALAR, PLANT_BASELINE, legs, contacts, 1);
+}
+
+/* Number i of the struct of B at `part`, of a lane. */
+static double *of_robot(void *plant, size_t part, size_t i, int32_t lane) {
+    const plant_header *h = (const plant_header *)plant;
+    return (double *)((char *)plant + part) + i * (size_t)h->robots + (size_t)lane;
+}
+
+/* Number i of `count` in the struct of V at `part`, of a leg of a lane. */
+static double *of_leg(void *plant, size_t part, size_t count, size_t i, int32_t leg, int32_t lane) {
+    const plant_header *h = (const plant_header *)plant;
+    const int32_t group = h->robots == h->width ? leg : leg / h->width;
+    const int32_t at = h->robots == h->width ? lane : leg % h->width;
+    return (double *)((char *)plant + part) + ((size_t)group * count + i) * (size_t)h->width +
+           (size_t)at;
+}
+
+#define PLACE_OF(type, field) (offsetof(type, field) / sizeof(double))
+#define ROBOT(plant, field, lane)                                                                  \
+    of_robot(plant, ((plant_header *)(plant))->robot, PLACE_OF(robot_numbers, field), lane)
+#define TRUNK(plant, field, lane)                                                                  \
+    of_robot(plant, ((plant_header *)(plant))->trunk, PLACE_OF(trunk_state, field), lane)
+#define LEG(plant, field, leg, lane)                                                               \
+    of_leg(plant, ((plant_header *)(plant))->state, NUMBERS_OF(leg_state),                         \
+           PLACE_OF(leg_state, field), leg, lane)
+
+/* Copy the robot of a plant of one into a lane of another. */
+static void put(void *plant, int32_t lane, void *single) {
+    const plant_header *h = (const plant_header *)plant, *s = (const plant_header *)single;
+    const struct {
+        size_t from, to, count;
+    } once[] = {{s->robot, h->robot, NUMBERS_OF(robot_numbers)},
+                {s->trunk, h->trunk, NUMBERS_OF(trunk_state)}},
+      each[] = {{s->leg, h->leg, NUMBERS_OF(leg_numbers)},
+                {s->state, h->state, NUMBERS_OF(leg_state)}};
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; i < once[k].count; i++)
+            *of_robot(plant, once[k].to, i, lane) = *of_robot(single, once[k].from, i, 0);
+    /* lanes without a leg compute what the first leg does, and are not added up */
+    const int32_t places = h->robots == h->width ? h->legs : h->groups * h->width;
+    for (int k = 0; k < 2; k++)
+        for (int32_t leg = 0; leg < places; leg++)
+            for (size_t i = 0; i < each[k].count; i++)
+                *of_leg(plant, each[k].to, each[k].count, i, leg, lane) =
+                    *of_leg(single, each[k].from, each[k].count, i, leg < h->legs ? leg : 0, 0);
+}
+
+static int32_t places_of(const plant_header *h) {
+    return h->robots == h->width ? h->legs : h->groups * h->width;
+}
+
+/* Commands and readings under way as before the start: the start pose once a tick, and no load. */
+static void start_under_way(void *plant, int32_t lane, double latency, double delay, double Ts) {
+    plant_header *h = (plant_header *)plant;
+    double *waits = (double *)((char *)plant + h->waits);
+    if (h->latency != latency || h->delay != delay || !h->loads_count) {
+        h->latency = latency;
+        h->delay = delay;
+        h->loads_last = 0;
+        h->loads_count = 1;
+        h->coming_first = h->coming_count = 0;
+        double wait = latency - Ts;
+        int32_t before = 0;
+        for (; wait > TICK_NOW * Ts; wait -= Ts) before++;
+        if (before > h->history - 1) before = h->history - 1;
+        wait = latency;
+        for (int32_t i = before - 1; i >= 0; i--) waits[i] = (wait -= Ts);
+        h->coming_count = before;
+    }
+    for (int32_t entry = 0; entry < h->history; entry++) {
+        const size_t commands =
+            h->coming + (size_t)entry * 3 * (size_t)h->groups * (size_t)h->width * sizeof(double);
+        const size_t loads =
+            h->loads + (size_t)entry * (size_t)h->groups * (size_t)h->width * sizeof(double);
+        for (int32_t leg = 0; leg < places_of(h); leg++) {
+            const int32_t real = leg < h->legs ? leg : 0;
+            for (size_t j = 0; j < 3; j++)
+                *of_leg(plant, commands, 3, j, leg, lane) = *LEG(plant, target[j], real, lane);
+            *of_leg(plant, loads, 1, 0, leg, lane) = 0.0;
+        }
+    }
+}
+
+void plant_place(void *plant, int32_t lane, const plant_robot *robot, const plant_ground *ground,
+                 uint64_t seed, const double *coordinates, double height, double Ts) {
+    plant_header *h = (plant_header *)plant;
+    void *single = h->width > 1 ? (char *)plant + h->scratch : plant;
+    const plant_parts p = parts_of(single);
+    V load[64];
+    memset(p.robot, 0, sizeof *p.robot);
+    memset(p.trunk, 0, sizeof *p.trunk);
+    memset(p.state, 0, (size_t)p.groups * sizeof *p.state);
+    set_robot(p.robot, robot, ground);
+    for (int32_t leg = 0; leg < p.legs; leg++) set_leg(&p.leg[leg], &robot->leg[leg]);
+    set_start(&p, coordinates, height);
+    p.robot->per_foot_mass = 1.0 / least_foot_mass(&p);
+    accelerate(&p, &ground, 0.0);
+    const trunk_motion t = trunk_moves(&p);
+    measure(&p, &ground, &t, 0.0, load);
+    if (single != plant) put(plant, lane, single);
+    start_under_way(plant, lane, robot->servo.latency, robot->sensor.delay, Ts);
+    h->fares[lane] = PLANT_WALKS;
+    h->seed[lane] = seed;
+    h->readings[lane] = 0;
+}
+
+void plant_tune(void *plant, int32_t lane, const plant_servo *servo, const plant_contact *contact,
+                const plant_sensor *sensor) {
+    plant_header *h = (plant_header *)plant;
+    robot_numbers n;
+    set_servo(&n, servo);
+    n.contact = contact_of(contact);
+    const double added = *ROBOT(plant, added, lane);
+    n.half_weight = *ROBOT(plant, half_weight, lane);
+    set_sensor(&n, sensor);
+    n.deviation = s_sqrt(n.noise * n.noise + added * added);
+#define TAKE(field) *ROBOT(plant, field, lane) = n.field
+    TAKE(reflected_inertia);
+    TAKE(slew_rate);
+    TAKE(servo.stiffness);
+    TAKE(servo.damping);
+    TAKE(servo.stall);
+    TAKE(servo.per_no_load);
+    TAKE(contact.radius);
+    TAKE(contact.stiffness);
+    TAKE(contact.damping);
+    TAKE(contact.per_depth);
+    TAKE(contact.friction);
+    TAKE(contact.slow);
+    TAKE(noise);
+    TAKE(deviation);
+    TAKE(norm);
+    TAKE(time_constant);
+#undef TAKE
+    *ROBOT(plant, share_of, lane) = 0.0;
+    h->latency = servo->latency;
+    h->delay = sensor->delay;
+}
+
+void plant_set_conditions(void *plant, int32_t lane, const plant_conditions *conditions) {
+    const plant_header *h = (const plant_header *)plant;
+    const double half = *ROBOT(plant, half_weight, lane), own = *ROBOT(plant, noise, lane);
+    const double added = conditions->grf_noise * half;
+    *ROBOT(plant, added, lane) = added;
+    *ROBOT(plant, deviation, lane) = s_sqrt(own * own + added * added);
+    *TRUNK(plant, held, lane) = conditions->held ? 1.0 : 0.0;
+    /* held where it is now, but level and at a height above its start */
+    for (size_t i = 0; i < 6; i++) *TRUNK(plant, pose[i], lane) = *TRUNK(plant, start[i], lane);
+    *TRUNK(plant, pose[0], lane) = *TRUNK(plant, x.x, lane);
+    *TRUNK(plant, pose[1], lane) = *TRUNK(plant, x.y, lane);
+    *TRUNK(plant, pose[3], lane) = *TRUNK(plant, yaw, lane);
+    *TRUNK(plant, pose[2], lane) += conditions->held_at;
+    for (int32_t place = 0; place < places_of(h); place++) {
+        const int32_t leg = place < h->legs ? place : 0;
+        *LEG(plant, sound, place, lane) =
+            conditions->damaged && conditions->damaged[leg] ? 0.0 : 1.0;
+        *LEG(plant, stuck, place, lane) = conditions->stuck ? conditions->stuck[leg] : NAN;
+    }
+}
+
+void plant_command(void *plant, int32_t lane, const double *hip, const double *knee) {
+    const plant_header *h = (const plant_header *)plant;
+    for (int32_t leg = 0; leg < h->legs; leg++) {
+        *LEG(plant, asked[0], leg, lane) = 0.0;
+        *LEG(plant, asked[1], leg, lane) = -hip[leg];
+        *LEG(plant, asked[2], leg, lane) = -knee[leg];
+    }
+}
+
+void plant_advance(void *plant, const plant_ground *const *grounds, double duration, double step) {
+    const plant_header *h = (const plant_header *)plant;
+    kernel_of(h->kind, h->level)->advance(plant, grounds, duration, step);
+}
+
+int32_t plant_state_of(const void *plant, int32_t lane) {
+    return ((const plant_header *)plant)->fares[lane];
+}
+
+int32_t plant_sample_size(int32_t legs) { return 9 + 19 * legs; }
+
+void plant_loads(const void *plant, int32_t lane, double *grf) {
+    void *p = (void *)(uintptr_t)plant;
+    for (int32_t leg = 0; leg < ((const plant_header *)plant)->legs; leg++)
+        grf[leg] = *LEG(p, reading, leg, lane);
+}
+
+void plant_sample(const void *plant, int32_t lane, double *sample) {
+    static const double sign[3] = {1.0, -1.0, -1.0};
+    void *p = (void *)(uintptr_t)plant;
+    const int32_t legs = ((const plant_header *)plant)->legs;
+    const double trunk[9] = {*TRUNK(p, x.x, lane),  *TRUNK(p, x.y, lane),   *TRUNK(p, x.z, lane),
+                             *TRUNK(p, roll, lane), *TRUNK(p, pitch, lane), *TRUNK(p, yaw, lane),
+                             *TRUNK(p, xd.x, lane), *TRUNK(p, xd.y, lane),  *TRUNK(p, xd.z, lane)};
+    memcpy(sample, trunk, sizeof trunk);
+    sample += 9;
+    const size_t places[6] = {PLACE_OF(leg_state, q),      PLACE_OF(leg_state, qd),
+                              PLACE_OF(leg_state, torque), PLACE_OF(leg_state, work),
+                              PLACE_OF(leg_state, foot),   PLACE_OF(leg_state, force)};
+    for (int k = 0; k < 6; k++)
+        for (int32_t leg = 0; leg < legs; leg++)
+            for (size_t j = 0; j < 3; j++)
+                *sample++ = (k < 3 ? sign[j] : 1.0) * *of_leg(p, ((plant_header *)p)->state,
+                                                              NUMBERS_OF(leg_state), places[k] + j,
+                                                              leg, lane);
+    plant_loads(plant, lane, sample);
+}
+
+void plant_accelerations(const void *plant, int32_t lane, double *accelerations) {
+    void *p = (void *)(uintptr_t)plant;
+    const double trunk[6] = {*TRUNK(p, xdd.x, lane),   *TRUNK(p, xdd.y, lane),
+                             *TRUNK(p, xdd.z, lane),   *TRUNK(p, yawdd, lane),
+                             *TRUNK(p, pitchdd, lane), *TRUNK(p, rolldd, lane)};
+    memcpy(accelerations, trunk, sizeof trunk);
+    for (int32_t leg = 0; leg < ((const plant_header *)plant)->legs; leg++)
+        for (size_t j = 0; j < 3; j++)
+            accelerations[6 + 3 * leg + (int32_t)j] = (j ? -1.0 : 1.0) * *LEG(p, qdd[j], leg, lane);
+}
+
+double plant_foot_mass(const void *plant, int32_t lane) {
+    return 1.0 / *ROBOT((void *)(uintptr_t)plant, per_foot_mass, lane);
+}

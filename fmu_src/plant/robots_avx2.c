@@ -1,0 +1,11 @@
+/* Robots side by side, in AVX2 without fused operations. */
+#include "targets.h"
+
+#ifdef PLANT_HAS_X86
+#define PLANT_KERNEL plant_kernel_robots_avx2
+#define PLANT_WIDTH  4
+#define PLANT_TARGET "avx2"
+#include "kernel.h"
+#else
+typedef int plant_no_robots_avx2; /* a file is not empty */
+#endif
