@@ -195,7 +195,7 @@ void plant_place(void *plant, int32_t lane, const plant_robot *robot, const plan
     measure(&p, &ground, &t, 0.0, load);
     if (single != plant) put(plant, lane, single);
     start_under_way(plant, lane, robot->servo.latency, robot->sensor.delay, Ts);
-    h->fares[lane] = PLANT_WALKS;
+    h->fares[lane] = fallen(&p, ground, &t, 0) ? PLANT_FELL : PLANT_WALKS;
     h->seed[lane] = seed;
     h->readings[lane] = 0;
 }
