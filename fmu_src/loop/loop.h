@@ -1,0 +1,120 @@
+/* Closed loops of controller FMU and robot, several side by side: the co-simulation master in C.
+ *
+ * A loop has the lanes of a plant; in every lane a run of its own walks, and a lane whose run has
+ * ended takes the next. The controller is any FMU of FMI 2.0, called through its functions.
+ *
+ * At tick n the controller gets the loads that the sensors show at n Ts, and its commands act on
+ * the servos from n Ts to (n + 1) Ts: what a control computer on the robot does.
+ *
+ * Python reads this header as it is, after plant.h.
+ */
+#ifndef LOOP_H
+#define LOOP_H
+
+#include "plant.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Addresses of the functions of the controller's library. */
+typedef struct {
+    void *instantiate, *free_instance, *setup_experiment, *enter_initialization;
+    void *exit_initialization, *set_real, *set_integer, *set_boolean, *do_step;
+    void *get_real, *get_integer, *get_boolean;
+} loop_functions;
+
+/* Which variables are read and written, the same for all runs of a loop. */
+typedef struct {
+    int32_t legs;
+    const uint32_t *inputs; /* loads of the legs, MI, turn: legs + 2 of type Real */
+    const uint32_t *reset;  /* 1 of type Boolean */
+    const uint32_t *reals;  /* outputs: hip and knee commands first, 2 legs of them, then others */
+    int32_t n_reals;        /* */
+    const uint32_t *integers; /* outputs to be recorded */
+    int32_t n_integers;       /* */
+    const uint32_t *booleans; /* outputs to be recorded */
+    int32_t n_booleans;       /* */
+} loop_variables;
+
+/* Start values of the controller. */
+typedef struct {
+    int32_t n_reals, n_integers, n_booleans;
+    const uint32_t *real, *integer, *boolean; /* value references */
+    const double *reals;
+    const int32_t *integers;
+    const int32_t *booleans;
+} loop_starts;
+
+/* A quantity that changes at ticks: value i holds from tick[i] on; tick[0] is 0, ticks grow. */
+typedef struct {
+    int32_t n;
+    const int32_t *tick;
+    const double *value;
+} loop_schedule;
+
+/* How a run ended. */
+enum {
+    LOOP_RUNS = 0,
+    LOOP_COMPLETE = 1,
+    LOOP_FELL = 2,
+    LOOP_DIVERGED = 3,
+    LOOP_REFUSED = 4 /* by the controller; the message says why */
+};
+
+/* One run. Everything must live until it has ended. */
+typedef struct {
+    const char *guid;                  /* of the controller */
+    const loop_starts *starts;         /* */
+    const plant_robot *robot;          /* */
+    const plant_ground *ground;        /* */
+    uint64_t seed;                     /* of the noise of the sensors */
+    const double *coordinates;         /* start, as plant_place takes them */
+    double height;                     /* [m] of the trunk above that */
+    int32_t ticks;                     /* planned */
+    loop_schedule mi, turn, reset;     /* */
+    int32_t n_conditions;              /* */
+    const int32_t *condition_tick;     /* from which each holds; the first is 0 */
+    const plant_conditions *condition; /* */
+    double *plant_record;              /* ticks * (9 + 19 legs), see plant_sample; NULL: none */
+    double *controller_record;         /* ticks * (inputs, reset, outputs); NULL: none */
+    /* written here */
+    int32_t count;       /* ticks taken */
+    int32_t end;         /* LOOP_... */
+    double controller_s; /* [s] wall time in the controller, estimated from some ticks */
+    char message[256];   /* what broke down */
+} loop_run;
+
+/* Bytes of a loop; arguments as plant_size. */
+size_t loop_size(int32_t kind, int32_t level, int32_t legs, int32_t contacts, int32_t history);
+
+/* Make the bytes at `memory` (aligned to 64) a loop without runs.
+ *
+ * Ts: time of a tick; step: longest integration step [s]. functions and variables must live as
+ * long as the loop. */
+void loop_create(void *memory, int32_t kind, int32_t level, int32_t legs, int32_t contacts,
+                 int32_t history, const loop_functions *functions, const loop_variables *variables,
+                 double Ts, double step);
+
+/* Number of lanes. */
+int32_t loop_lanes(const void *loop);
+
+/* Begin a run in a lane that has none. A controller that refuses ends it at once. */
+void loop_begin(void *loop, int32_t lane, loop_run *run);
+
+/* Walk until a run has ended, or for so many ticks, or until *stop is not 0 (NULL: never).
+ *
+ * Returns the number of runs that have ended; their lanes have none from then on. */
+int32_t loop_walk(void *loop, int32_t ticks, const volatile int32_t *stop);
+
+/* The run in a lane; NULL: none. */
+loop_run *loop_run_in(const void *loop, int32_t lane);
+
+/* Give back what the controllers hold, of runs that have not ended. */
+void loop_free(void *loop);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
