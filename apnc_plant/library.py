@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import cffi
 
-from build_fmu.library import library_path, plant_header
+from build_fmu.library import headers, library_path
 
 _LOCK: Final = threading.Lock()
 _loaded: list[tuple[Any, Any]] = []
@@ -33,7 +33,8 @@ def library() -> tuple[Any, Any]:
 
 def _load() -> tuple[Any, Any]:
     ffi = cffi.FFI()
-    ffi.cdef(declarations(plant_header()))
+    for header in headers():
+        ffi.cdef(declarations(header))
     return ffi, ffi.dlopen(str(library_path()))
 
 

@@ -20,24 +20,24 @@ READY: Final = Path(__file__).parent / "ready"
 
 NAME: Final = "apnc_plant"
 
+_FOLDERS: Final = ("plant", "loop")
+"""Of ``fmu_src``: the robot, and closed loops of it and a controller."""
+
 _FLAGS: Final = ("-fvisibility=default",)
 """Beside those of every build; a library for Python shows its functions, an FMU hides them."""
 
 
-def plant_header() -> str:
-    """Text of ``plant.h``."""
-    return _root().joinpath("plant", "plant.h").read_text(encoding="utf-8")
+def headers() -> list[str]:
+    """Text of ``plant.h`` and ``loop.h``, which the library's functions are declared in."""
+    paths = [_root().joinpath(name).joinpath(f"{name}.h") for name in _FOLDERS]
+    return [path.read_text(encoding="utf-8") for path in paths]
 
 
 def sources() -> dict[str, bytes]:
     """C files and headers by name."""
-    plant, core = _root().joinpath("plant"), _root().joinpath("core")
-    files = {entry.name: entry.read_bytes() for entry in plant.iterdir() if _is_c(entry.name)}
-    files |= {name: core.joinpath(name).read_bytes() for name in _OF_THE_CORE}
+    entries = [entry for name in _FOLDERS for entry in _root().joinpath(name).iterdir()]
+    files = {entry.name: entry.read_bytes() for entry in entries if _is_c(entry.name)}
     return dict(sorted(files.items()))
-
-
-_OF_THE_CORE: Final = ("elementary.h", "apnc_config.h", "apnc_variables.h")
 
 
 def _root() -> importlib.resources.abc.Traversable:
