@@ -22,6 +22,7 @@ ROOT: Final = Path(__file__).resolve().parent.parent
 
 TARGETS: Final = {
     "interface.py.j2": "apnc_core/interface.py",
+    "apnc_row.h.j2": "fmu_src/core/apnc_row.h",
     "apnc_variables.h.j2": "fmu_src/core/apnc_variables.h",
     "apnc_variables.c.j2": "fmu_src/core/apnc_variables.c",
     "variables.md.j2": "docs/variables.md",

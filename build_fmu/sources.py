@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import importlib.resources
 import itertools
-from importlib.resources.abc import Traversable
 from typing import Final
 
 from apnc_core.schema import Shape, Value
@@ -17,37 +16,50 @@ _FMI_HEADERS: Final = {
 }
 
 
-def collect(fmi: int = 2) -> dict[str, bytes]:
-    """C files and headers by name, without the configuration header.
+CONTROLLER: Final = "controller"
+PLANT: Final = "plant"
+"""The models that the shell is built for."""
+
+_FOLDERS: Final = {CONTROLLER: ("core", "fmi"), PLANT: ("plant", "fmi")}
+_SHARED: Final = ("apnc_names.h", "apnc_real.h", "apnc_row.h")
+"""Headers of the core that the shell needs of whatever model."""
+
+_CONFIGURED: Final = ("apnc_config.h", "plant_config.h")
+"""What a build writes its own version of."""
+
+
+def collect(fmi: int = 2, model: str = CONTROLLER) -> dict[str, bytes]:
+    """C files and headers by name, without the configuration headers.
 
     Args:
         fmi: version of the standard, 2 or 3.
+        model: ``controller`` or ``plant``.
 
     The headers of the standard come from the ``fmpy`` package.
     """
-    files = own_files(fmi)
+    files = own_files(fmi, model)
     headers = importlib.resources.files("fmpy").joinpath("c-code")
     files |= {name: headers.joinpath(name).read_bytes() for name in _FMI_HEADERS[fmi]}
     return dict(sorted(files.items()))
 
 
-def own_files(fmi: int = 2) -> dict[str, bytes]:
+def own_files(fmi: int = 2, model: str = CONTROLLER) -> dict[str, bytes]:
     """As ``collect``, without the headers of the standard."""
     root = importlib.resources.files("fmu_src")
-    files = {
-        entry.name: entry.read_bytes()
-        for folder in ("core", "fmi")
-        for entry in root.joinpath(folder).iterdir()
-        if _is_source(entry, fmi)
-    }
+    entries = [e for folder in _FOLDERS[model] for e in root.joinpath(folder).iterdir()]
+    entries += [root.joinpath("core").joinpath(name) for name in _SHARED]
+    files = {e.name: e.read_bytes() for e in entries if _is_source(e.name, fmi, model)}
     return dict(sorted(files.items()))
 
 
-def _is_source(entry: Traversable, fmi: int) -> bool:
-    if entry.name == "apnc_config.h" or not entry.name.endswith((".c", ".h")):
+def _is_source(name: str, fmi: int, model: str) -> bool:
+    if name in _CONFIGURED or not name.endswith((".c", ".h")):
+        return False
+    others = {CONTROLLER, PLANT} - {model}
+    if name.endswith(tuple(f"{other}_model.c" for other in others)):
         return False
     # files named fmi2... and fmi3... belong to that version of the standard only
-    return not entry.name.startswith("fmi") or entry.name.startswith(f"fmi{fmi}")
+    return not name.startswith("fmi") or name.startswith(f"fmi{fmi}")
 
 
 def c_files(files: dict[str, bytes]) -> list[str]:

@@ -5,14 +5,7 @@
 #ifndef APNC_VARIABLES_H
 #define APNC_VARIABLES_H
 
-#include <stddef.h>
-#include <stdint.h>
-
-#include "apnc_names.h"
-
-#if APNC_LEGS < 2 || APNC_LEGS > 64
-#error "APNC_LEGS must be 2 to 64"
-#endif
+#include "apnc_row.h"
 
 #define APNC_RELATIONS (APNC_LEGS - 1) /* phase relations phi_1k, k = 2 ... APNC_LEGS */
 #define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
@@ -20,15 +13,7 @@
 #define APNC_KERNEL_WIDTH 0.04 /* distance squared at which they fall to 1/e */
 #define APNC_OVERLAP 1.15 /* mean of their sum over the angle of the cycle */
 #define APNC_CENTRES {{0.85, 0.0}, {0.87, 0.28}, {0.88, 0.64}, {0.57, 0.79}, {0.27, 0.83}, {0.0, 0.85}, {-0.28, 0.87}, {-0.64, 0.88}, {-0.79, 0.57}, {-0.83, 0.27}, {-0.85, 0.0}, {-0.87, -0.28}, {-0.88, -0.64}, {-0.57, -0.79}, {-0.27, -0.83}, {0.0, -0.85}, {0.28, -0.87}, {0.64, -0.88}, {0.79, -0.57}, {0.83, -0.27}}
-#define APNC_VR_STRIDE 100u /* value reference = stride * row + element */
-#define APNC_VR_TIME 9900u /* of the independent variable in FMI 3.0 */
 #define APNC_ROWS 59
-
-#ifdef APNC_SINGLE
-typedef float apnc_real;
-#else
-typedef double apnc_real;
-#endif
 
 #define APNC_MI_START 0.08
 #define APNC_MI_MIN (0.0)
@@ -142,24 +127,6 @@ typedef struct {
     apnc_inputs inputs;
     apnc_outputs outputs;
 } apnc_data;
-
-typedef enum { APNC_REAL, APNC_INTEGER, APNC_BOOLEAN, APNC_ENUMERATION } apnc_type;
-
-typedef enum { APNC_INPUT, APNC_OUTPUT, APNC_LOCAL, APNC_FIXED, APNC_TUNABLE } apnc_role;
-
-/* How to reach, name and check one row. */
-typedef struct {
-    const char *name;
-    const char *before; /* scalar name = before + index + after; before alone if count is 1 */
-    const char *after;
-    size_t offset; /* of the first entry in apnc_data [bytes] */
-    int count;
-    apnc_type type;
-    apnc_role role;
-    apnc_real start;
-    apnc_real min; /* inclusive; min > max: no range */
-    apnc_real max;
-} apnc_row;
 
 #ifdef __cplusplus
 extern "C" {

@@ -10,9 +10,10 @@
 #define APNC_ELEMENTARY_H
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
-#include "apnc_variables.h"
+#include "apnc_real.h"
 
 #if defined(APNC_SINGLE)
 #define apnc_tanh(x)        tanhf(x)

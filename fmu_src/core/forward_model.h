@@ -2,6 +2,7 @@
 #ifndef APNC_FORWARD_MODEL_H
 #define APNC_FORWARD_MODEL_H
 
+#include "apnc_variables.h"
 #include "elementary.h"
 
 /* G(n): 1 while the command, of the hip or of the knee, does not rise, else 0 (Eq. 11). */

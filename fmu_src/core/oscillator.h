@@ -2,6 +2,7 @@
 #ifndef APNC_OSCILLATOR_H
 #define APNC_OSCILLATOR_H
 
+#include "apnc_variables.h"
 #include "elementary.h"
 
 /* Recurrent part of the activations a1(n+1), a2(n+1). */

@@ -43,6 +43,14 @@ static void release(const fmi2CallbackFunctions *callbacks, void *memory) {
         free(memory);
 }
 
+static void *allocate_for(apnc_instance *instance, size_t size) {
+    return allocate(&((fmu *)instance)->callbacks, size);
+}
+
+static void release_for(apnc_instance *instance, void *memory) {
+    release(&((fmu *)instance)->callbacks, memory);
+}
+
 const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 
 const char *fmi2GetVersion(void) { return fmi2Version; }
@@ -79,7 +87,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         return NULL;
     }
     const size_t length = strlen(instanceName) + 1;
-    fmu *f = allocate(callbacks, sizeof *f);
+    fmu *f = allocate(callbacks, sizeof *f + apnc_instance_room());
     if (!f) return NULL;
     memset(f, 0, sizeof *f); /* an importer's allocateMemory may forget to */
     f->name = allocate(callbacks, length);
@@ -90,8 +98,10 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     memcpy(f->name, instanceName, length);
     f->callbacks = *callbacks;
     if (callbacks->logger) f->base.emit = emit;
+    f->base.allocate = allocate_for;
+    f->base.release = release_for;
     for (int k = 0; k < APNC_LOG_CATEGORIES; k++) f->base.logging[k] = loggingOn != fmi2False;
-    apnc_run_clear(&f->base.run);
+    apnc_instance_settle(&f->base, f + 1);
     return f;
 }
 
@@ -99,6 +109,7 @@ void fmi2FreeInstance(fmi2Component c) {
     fmu *f = (fmu *)c;
     if (!f) return;
     const fmi2CallbackFunctions callbacks = f->callbacks;
+    apnc_instance_leave(&f->base);
     release(&callbacks, f->name);
     release(&callbacks, f);
 }
@@ -116,7 +127,7 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fm
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
     fmu *f = (fmu *)c;
     if (!allowed(f, APNC_INSTANTIATED, "fmi2EnterInitializationMode")) return fmi2Error;
-    f->base.run.phase = APNC_INITIALIZATION;
+    f->base.run->phase = APNC_INITIALIZATION;
     return fmi2OK;
 }
 
@@ -129,14 +140,14 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
 fmi2Status fmi2Terminate(fmi2Component c) {
     fmu *f = (fmu *)c;
     if (!allowed(f, APNC_STEPPING, "fmi2Terminate")) return fmi2Error;
-    f->base.run.phase = APNC_TERMINATED;
+    f->base.run->phase = APNC_TERMINATED;
     return fmi2OK;
 }
 
 fmi2Status fmi2Reset(fmi2Component c) {
     fmu *f = (fmu *)c;
     if (!allowed(f, APNC_ANY, "fmi2Reset")) return fmi2Error;
-    apnc_run_clear(&f->base.run);
+    apnc_clear(&f->base);
     return fmi2OK;
 }
 
@@ -196,9 +207,9 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
     fmu *f = (fmu *)c;
     if (!allowed(f, APNC_ANY, "fmi2GetFMUstate")) return fmi2Error;
     if (!FMUstate) return fail(f, "fmi2GetFMUstate", "FMUstate is NULL");
-    if (!*FMUstate) *FMUstate = allocate(&f->callbacks, sizeof(apnc_run));
+    if (!*FMUstate) *FMUstate = allocate(&f->callbacks, apnc_saved_size());
     if (!*FMUstate) return fail(f, "fmi2GetFMUstate", "out of memory");
-    memcpy(*FMUstate, &f->base.run, sizeof(apnc_run));
+    apnc_save(&f->base, *FMUstate);
     return fmi2OK;
 }
 
@@ -206,8 +217,7 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate) {
     fmu *f = (fmu *)c;
     if (!allowed(f, APNC_ANY, "fmi2SetFMUstate")) return fmi2Error;
     if (!FMUstate) return fail(f, "fmi2SetFMUstate", "FMUstate is NULL");
-    memcpy(&f->base.run, FMUstate, sizeof(apnc_run));
-    return fmi2OK;
+    return (fmi2Status)apnc_restore(&f->base, FMUstate);
 }
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
@@ -233,22 +243,28 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byt
     if (!allowed(f, APNC_ANY, "fmi2SerializeFMUstate")) return fmi2Error;
     if (!FMUstate || !serializedState) return fail(f, "fmi2SerializeFMUstate", "a pointer is NULL");
     if (size < apnc_blob_size()) return fail(f, "fmi2SerializeFMUstate", "buffer is too small");
-    apnc_blob_write((const apnc_run *)FMUstate, (unsigned char *)serializedState);
+    apnc_blob_write(FMUstate, (unsigned char *)serializedState);
     return fmi2OK;
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedState[], size_t size,
                                    fmi2FMUstate *FMUstate) {
     fmu *f = (fmu *)c;
-    apnc_run run;
     if (!allowed(f, APNC_ANY, "fmi2DeSerializeFMUstate")) return fmi2Error;
     if (!serializedState || !FMUstate)
         return fail(f, "fmi2DeSerializeFMUstate", "a pointer is NULL");
-    if (apnc_blob_read(&f->base, (const unsigned char *)serializedState, size, &run) != APNC_OK)
+    void *saved = allocate(&f->callbacks, apnc_saved_size());
+    if (!saved) return fail(f, "fmi2DeSerializeFMUstate", "out of memory");
+    if (apnc_blob_read(&f->base, (const unsigned char *)serializedState, size, saved) != APNC_OK) {
+        release(&f->callbacks, saved);
         return fmi2Error;
-    if (!*FMUstate) *FMUstate = allocate(&f->callbacks, sizeof run);
-    if (!*FMUstate) return fail(f, "fmi2DeSerializeFMUstate", "out of memory");
-    memcpy(*FMUstate, &run, sizeof run);
+    }
+    if (!*FMUstate) {
+        *FMUstate = saved;
+        return fmi2OK;
+    }
+    memcpy(*FMUstate, saved, apnc_saved_size());
+    release(&f->callbacks, saved);
     return fmi2OK;
 }
 
@@ -317,7 +333,7 @@ fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *va
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value) {
     fmu *f = (fmu *)c;
     const fmi2Status status = status_of(f, "fmi2GetRealStatus", value, s == fmi2LastSuccessfulTime);
-    if (status == fmi2OK) *value = f->base.run.time;
+    if (status == fmi2OK) *value = f->base.run->time;
     return status;
 }
 

@@ -7,6 +7,7 @@
 
 #include "fmi3_standard.h"
 #include "instance.h"
+#include "model.h"
 
 #ifndef APNC_GUID
 #error "APNC_GUID must be the instantiation token of the model description"
@@ -30,6 +31,16 @@ static void emit(apnc_instance *instance, apnc_status status, apnc_log category,
                  const char *message) {
     fmu *f = (fmu *)instance;
     f->log_message(f->environment, (fmi3Status)status, apnc_log_names[category], message);
+}
+
+static void *allocate_for(apnc_instance *instance, size_t size) {
+    (void)instance;
+    return calloc(1, size);
+}
+
+static void release_for(apnc_instance *instance, void *memory) {
+    (void)instance;
+    free(memory);
 }
 
 const char *fmi3GetVersion(void) { return fmi3Version; }
@@ -63,17 +74,23 @@ fmi3Instance fmi3InstantiateCoSimulation(
             logMessage(instanceEnvironment, fmi3Error, apnc_log_names[APNC_LOG_ERROR], why);
         return NULL;
     }
-    fmu *f = calloc(1, sizeof *f);
+    fmu *f = calloc(1, sizeof *f + apnc_instance_room());
     if (!f) return NULL;
     f->environment = instanceEnvironment;
     f->log_message = logMessage;
     if (logMessage) f->base.emit = emit;
+    f->base.allocate = allocate_for;
+    f->base.release = release_for;
     for (int k = 0; k < APNC_LOG_CATEGORIES; k++) f->base.logging[k] = loggingOn;
-    apnc_run_clear(&f->base.run);
+    apnc_instance_settle(&f->base, f + 1);
     return f;
 }
 
-void fmi3FreeInstance(fmi3Instance instance) { free(instance); }
+void fmi3FreeInstance(fmi3Instance instance) {
+    if (!instance) return;
+    apnc_instance_leave((apnc_instance *)instance);
+    free(instance);
+}
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean toleranceDefined,
                                        fmi3Float64 tolerance, fmi3Float64 startTime,
@@ -85,7 +102,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolera
     if (apnc_set_times(&f->base, "fmi3EnterInitializationMode", startTime, stopTimeDefined,
                        stopTime) != APNC_OK)
         return fmi3Error;
-    f->base.run.phase = APNC_INITIALIZATION;
+    f->base.run->phase = APNC_INITIALIZATION;
     return fmi3OK;
 }
 
@@ -98,14 +115,14 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
 fmi3Status fmi3Terminate(fmi3Instance instance) {
     fmu *f = (fmu *)instance;
     if (!allowed(f, APNC_STEPPING, "fmi3Terminate")) return fmi3Error;
-    f->base.run.phase = APNC_TERMINATED;
+    f->base.run->phase = APNC_TERMINATED;
     return fmi3OK;
 }
 
 fmi3Status fmi3Reset(fmi3Instance instance) {
     fmu *f = (fmu *)instance;
     if (!allowed(f, APNC_ANY, "fmi3Reset")) return fmi3Error;
-    apnc_run_clear(&f->base.run);
+    apnc_clear(&f->base);
     return fmi3OK;
 }
 
@@ -113,7 +130,7 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
 static size_t entries(fmu *f, const char *function, fmi3ValueReference vr, apnc_type type) {
     const uint32_t row = vr / APNC_VR_STRIDE;
     if (vr == APNC_VR_TIME && type == APNC_REAL) return 1;
-    if (vr % APNC_VR_STRIDE || row >= APNC_ROWS || apnc_rows[row].type != type) {
+    if (vr % APNC_VR_STRIDE || row >= (uint32_t)apnc_row_count || apnc_rows[row].type != type) {
         apnc_report(&f->base, APNC_ERROR, APNC_LOG_ERROR,
                     "%s: no variable of this type has value reference %lu", function,
                     (unsigned long)vr);
@@ -190,7 +207,7 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], 
     fmi3Status status = check_access(f, APNC_ANY, "fmi3GetFloat64", vr, nvr, values);
     EACH_VALUE("fmi3GetFloat64", APNC_REAL, {
         if (at == APNC_VR_TIME)
-            values[next] = f->base.run.time;
+            values[next] = f->base.run->time;
         else
             status = (fmi3Status)apnc_get(&f->base, at, APNC_REAL, &values[next]);
     })
@@ -200,9 +217,9 @@ fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
     fmu *f = (fmu *)instance;
     if (!allowed(f, APNC_ANY, "fmi3GetFMUState")) return fmi3Error;
     if (!FMUState) return fail(f, "fmi3GetFMUState", "FMUState is NULL");
-    if (!*FMUState) *FMUState = malloc(sizeof(apnc_run));
+    if (!*FMUState) *FMUState = malloc(apnc_saved_size());
     if (!*FMUState) return fail(f, "fmi3GetFMUState", "out of memory");
-    memcpy(*FMUState, &f->base.run, sizeof(apnc_run));
+    apnc_save(&f->base, *FMUState);
     return fmi3OK;
 }
 
@@ -210,8 +227,7 @@ fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState FMUState) {
     fmu *f = (fmu *)instance;
     if (!allowed(f, APNC_ANY, "fmi3SetFMUState")) return fmi3Error;
     if (!FMUState) return fail(f, "fmi3SetFMUState", "FMUState is NULL");
-    memcpy(&f->base.run, FMUState, sizeof(apnc_run));
-    return fmi3OK;
+    return (fmi3Status)apnc_restore(&f->base, FMUState);
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
@@ -237,21 +253,28 @@ fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState,
     if (!allowed(f, APNC_ANY, "fmi3SerializeFMUState")) return fmi3Error;
     if (!FMUState || !serializedState) return fail(f, "fmi3SerializeFMUState", "a pointer is NULL");
     if (size < apnc_blob_size()) return fail(f, "fmi3SerializeFMUState", "buffer is too small");
-    apnc_blob_write((const apnc_run *)FMUState, serializedState);
+    apnc_blob_write(FMUState, serializedState);
     return fmi3OK;
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[],
                                    size_t size, fmi3FMUState *FMUState) {
     fmu *f = (fmu *)instance;
-    apnc_run run;
     if (!allowed(f, APNC_ANY, "fmi3DeserializeFMUState")) return fmi3Error;
     if (!serializedState || !FMUState)
         return fail(f, "fmi3DeserializeFMUState", "a pointer is NULL");
-    if (apnc_blob_read(&f->base, serializedState, size, &run) != APNC_OK) return fmi3Error;
-    if (!*FMUState) *FMUState = malloc(sizeof run);
-    if (!*FMUState) return fail(f, "fmi3DeserializeFMUState", "out of memory");
-    memcpy(*FMUState, &run, sizeof run);
+    void *saved = malloc(apnc_saved_size());
+    if (!saved) return fail(f, "fmi3DeserializeFMUState", "out of memory");
+    if (apnc_blob_read(&f->base, serializedState, size, saved) != APNC_OK) {
+        free(saved);
+        return fmi3Error;
+    }
+    if (!*FMUState) {
+        *FMUState = saved;
+        return fmi3OK;
+    }
+    memcpy(*FMUState, saved, apnc_saved_size());
+    free(saved);
     return fmi3OK;
 }
 
@@ -268,6 +291,6 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     *eventHandlingNeeded = *terminateSimulation = *earlyReturn = fmi3False;
     const apnc_status status =
         apnc_step(&f->base, currentCommunicationPoint, communicationStepSize);
-    *lastSuccessfulTime = f->base.run.time;
+    *lastSuccessfulTime = f->base.run->time;
     return (fmi3Status)status;
 }

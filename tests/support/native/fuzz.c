@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "apnc.h"
 #include "fmi2Functions.h"
 #include "instance.h"
 
@@ -197,11 +198,11 @@ static uint64_t checksum(const unsigned char *bytes, size_t size) {
 
 /* Spoils the blob; sometimes so that its checksum is right again, as a hostile file would. */
 static void spoil(void) {
-    const size_t header = blob_size - sizeof(apnc_run);
-    const size_t parts[] = {0, sizeof(apnc_data), offsetof(apnc_run, start_time),
-                            offsetof(apnc_run, state.estimation.oldest)};
-    const size_t sizes[] = {sizeof(apnc_parameters), sizeof(apnc_state),
-                            sizeof(apnc_run) - offsetof(apnc_run, start_time), 3 * sizeof(int32_t)};
+    const size_t header = blob_size - apnc_saved_size();
+    const size_t parts[] = {0, apnc_state_at(), apnc_run_at(),
+                            apnc_state_at() + offsetof(apnc_state, estimation.oldest)};
+    const size_t sizes[] = {sizeof(apnc_parameters), sizeof(apnc_state), sizeof(apnc_run),
+                            3 * sizeof(int32_t)};
     for (uint32_t k = draw(4); k > 0; k--) {
         const uint32_t part = draw(4);
         const size_t at = header + parts[part] + draw((uint32_t)sizes[part]);
@@ -218,7 +219,7 @@ static void spoil(void) {
         }
     }
     if (one_in(2)) {
-        const uint64_t sum = checksum((unsigned char *)blob + header, sizeof(apnc_run));
+        const uint64_t sum = checksum((unsigned char *)blob + header, apnc_saved_size());
         memcpy(blob + header - sizeof sum, &sum, sizeof sum);
     }
 }

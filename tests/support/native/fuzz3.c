@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "apnc.h"
 #include "fmi3_standard.h"
 #include "instance.h"
 
@@ -135,15 +136,15 @@ static uint64_t checksum(const unsigned char *bytes, size_t size) {
 
 /* Spoils the blob; sometimes so that its checksum is right again, as a hostile file would. */
 static void spoil(void) {
-    const size_t header = blob_size - sizeof(apnc_run);
+    const size_t header = blob_size - apnc_saved_size();
     for (uint32_t k = draw(4); k > 0; k--) {
-        const size_t at = header + draw(sizeof(apnc_run) / 8) * 8;
+        const size_t at = header + draw((uint32_t)apnc_saved_size() / 8) * 8;
         const double number = odd_real();
         memcpy(blob + at, &number, sizeof number);
     }
     if (one_in(4)) blob[draw((uint32_t)blob_size)] ^= (fmi3Byte)(1 << draw(8));
     if (one_in(2)) {
-        const uint64_t sum = checksum(blob + header, sizeof(apnc_run));
+        const uint64_t sum = checksum(blob + header, apnc_saved_size());
         memcpy(blob + header - sizeof sum, &sum, sizeof sum);
     }
 }

@@ -24,21 +24,12 @@
 #define APNC_ELEMENTARY_H
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
-/* Variables of the controller: structs, one field per row of the table.
- *
- * Generated from apnc_core/variables.py by `python -m build_fmu.generate`; do not edit.
- */
-#ifndef APNC_VARIABLES_H
-#define APNC_VARIABLES_H
-
-#include <stddef.h>
-#include <stdint.h>
-
-/* Names that a linker sees carry a prefix, so that two builds in one program share none. */
-#ifndef APNC_NAMES_H
-#define APNC_NAMES_H
+/* Numbers of the core: double, or float for processors without double arithmetic. */
+#ifndef APNC_REAL_H
+#define APNC_REAL_H
 
 /* Build-time choices. The build writes its own version of this file beside the sources. */
 #ifndef APNC_CONFIG_H
@@ -53,185 +44,10 @@
 
 #endif
 
-#define APNC_PASTE(a, b) a##b
-#define APNC_JOIN(a, b)  APNC_PASTE(a, b)
-
-/* The build of an FMU takes its guid; the core alone its number of legs and of digits. */
-#ifndef APNC_PREFIX
-#ifdef APNC_SINGLE
-#define APNC_PREFIX APNC_JOIN(APNC_JOIN(apnc, APNC_LEGS), f_)
-#else
-#define APNC_PREFIX APNC_JOIN(APNC_JOIN(apnc, APNC_LEGS), _)
-#endif
-#endif
-
-#define APNC_NAME(name) APNC_JOIN(APNC_PREFIX, name)
-
-#define apnc_rows     APNC_NAME(rows)
-#define apnc_defaults APNC_NAME(defaults)
-#define apnc_init     APNC_NAME(init)
-#define apnc_reset    APNC_NAME(reset)
-#define apnc_tick     APNC_NAME(tick)
-
-#endif
-
-#if APNC_LEGS < 2 || APNC_LEGS > 64
-#error "APNC_LEGS must be 2 to 64"
-#endif
-
-#define APNC_RELATIONS (APNC_LEGS - 1) /* phase relations phi_1k, k = 2 ... APNC_LEGS */
-#define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
-#define APNC_KERNELS 20 /* radial basis functions of the forward model */
-#define APNC_KERNEL_WIDTH 0.04 /* distance squared at which they fall to 1/e */
-#define APNC_OVERLAP 1.15 /* mean of their sum over the angle of the cycle */
-#define APNC_CENTRES {{0.85, 0.0}, {0.87, 0.28}, {0.88, 0.64}, {0.57, 0.79}, {0.27, 0.83}, {0.0, 0.85}, {-0.28, 0.87}, {-0.64, 0.88}, {-0.79, 0.57}, {-0.83, 0.27}, {-0.85, 0.0}, {-0.87, -0.28}, {-0.88, -0.64}, {-0.57, -0.79}, {-0.27, -0.83}, {0.0, -0.85}, {0.28, -0.87}, {0.64, -0.88}, {0.79, -0.57}, {0.83, -0.27}}
-#define APNC_VR_STRIDE 100u /* value reference = stride * row + element */
-#define APNC_VR_TIME 9900u /* of the independent variable in FMI 3.0 */
-#define APNC_ROWS 59
-
 #ifdef APNC_SINGLE
 typedef float apnc_real;
 #else
 typedef double apnc_real;
-#endif
-
-#define APNC_MI_START 0.08
-#define APNC_MI_MIN (0.0)
-#define APNC_MI_MAX 1.0
-#define APNC_TURN_START 0.0
-#define APNC_TURN_MIN (-1.0)
-#define APNC_TURN_MAX 1.0
-
-typedef enum {
-    APNC_METHOD_APNC = 1, /* adaptive physical and neural communication, Eq. 1-18 */
-    APNC_METHOD_APC = 2, /* adaptive physical communication only, Eq. 1-11 */
-    APNC_METHOD_TEGOTAE = 3, /* Tegotae baseline: Eq. 5 with a fixed gain */
-    APNC_METHOD_PHASE_RESET = 4, /* phase-resetting baseline: activations set to (1, 0) at touch-down */
-} apnc_method;
-
-typedef enum {
-    APNC_FORWARD_MODEL_LOW_PASS_HIP = 1, /* low-passed stance of the hip command, Eq. 10-11 as printed */
-    APNC_FORWARD_MODEL_LOW_PASS_KNEE = 2, /* Eq. 10-11 with the knee command, as the text of section 2.1.2 has it */
-    APNC_FORWARD_MODEL_RADIAL_BASIS = 3, /* radial basis functions of (o1, o2) that learn the load */
-} apnc_forward_model;
-
-typedef enum {
-    APNC_PHASE_MEASURE_VECTOR = 1, /* low-passed angle between the vectors (o1, o2) of two legs */
-    APNC_PHASE_MEASURE_PEAK = 2, /* times of the peaks of o1, Eq. 12 */
-} apnc_phase_measure;
-
-typedef enum {
-    APNC_KAPPA_RULE_ARMED = 1, /* armed once d has exceeded sigma, on after kappa_hold ticks at or below it, then kept */
-    APNC_KAPPA_RULE_PRINTED = 2, /* Eq. 16 as printed: on whenever d is at or below sigma */
-} apnc_kappa_rule;
-
-typedef enum {
-    APNC_COUPLING_SIGN_REVERSED = 1, /* g subtracted: recovers the stored gait */
-    APNC_COUPLING_SIGN_PRINTED = 2, /* g added, as printed in Eq. 18 */
-} apnc_coupling_sign;
-
-/* Parameters. */
-typedef struct {
-    apnc_real Ts; /* [s] time between two ticks of the controller */
-    apnc_real robot_weight; /* [N] Eq. 5: weight of the robot; half of it normalises the load */
-    apnc_real F_max; /* [1] Eq. 5: largest load over half the weight that the circuits see; a higher one, as in an impact or under a payload, counts as this */
-    int32_t method; /* which controller runs */
-    apnc_real w11; /* [1] Eq. 3: self-weight of both neurons, w11 = w22 */
-    apnc_real w12_0; /* [1] Eq. 3: cross-weight at MI = 0: w12 = w12_0 + MI, w21 = -w12 */
-    apnc_real bias; /* [1] Eq. 1: bias added to both activations; the paper has none */
-    apnc_real o1_start; /* [1] Eq. 2: start output of neuron N1, the same for every leg */
-    apnc_real o2_start; /* [1] Eq. 2: start output of neuron N2, the same for every leg */
-    apnc_real a1; /* [rad] Eq. 4: slope of the motor neuron of the hip */
-    apnc_real a2; /* [rad] Eq. 4: slope of the motor neuron of the knee */
-    apnc_real b1; /* [rad] Eq. 4: offset of the motor neuron of the hip */
-    apnc_real b2; /* [rad] Eq. 4: offset of the motor neuron of the knee */
-    apnc_real turn_gain; /* [1] Eq. 4: relative change of the amplitudes at full steering */
-    apnc_real A_f; /* [1] Eq. 7: retention of the fast learner */
-    apnc_real B_f; /* [1] Eq. 7: learning rate of the fast learner */
-    apnc_real A_s; /* [1] Eq. 8: retention of the slow learner */
-    apnc_real B_s; /* [1] Eq. 8: learning rate of the slow learner */
-    apnc_real alpha; /* [1] Eq. 10: scale of the expected load */
-    apnc_real rho; /* [1] Eq. 10: shape of the expected load */
-    int32_t forward_model; /* Eq. 10, 11: what the expected load is made of */
-    apnc_real rbf_rate; /* [1] Eq. 10: learning rate of the radial-basis forward model */
-    int32_t phase_measure; /* Eq. 12: how the relative phases are measured; the paper prints peak */
-    apnc_real phase_filter; /* [1] Eq. 12: new part per tick in the low-pass of the vector phase measure */
-    int32_t N; /* Eq. 14: ticks in the mean of the relative phases */
-    apnc_real sigma; /* [rad] Eq. 16: threshold of d below which the phases count as stable */
-    int32_t kappa_rule; /* Eq. 16: when the couplings switch on; the paper prints Eq. 16 */
-    int32_t kappa_hold; /* Eq. 16: ticks that d stays at or below sigma before kappa switches on */
-    apnc_real xi; /* [1] Eq. 17: gain of the neural communication */
-    apnc_real feedback_kept; /* [1] Eq. 5: share of the sensory feedback that stays while the couplings are on; 1 as in the equations */
-    int32_t coupling_sign; /* Eq. 18: sign of the coupling term; the paper prints plus */
-    int32_t phi_frozen; /* Eq. 17: true: the couplings hold the phases measured when kappa switched on; false: the phases measured now, as Eq. 17 reads */
-    int32_t MI_zero_resets; /* Eq. 3: true: MI = 0 acts as reset; false: the oscillators run on at w12 = w12_0, as Eq. 3 reads */
-    int32_t stored; /* Eq. 17: true: start with the relations phi_stored learned and the couplings on */
-    apnc_real phi_stored[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k that a start with stored = true holds */
-    apnc_real gamma_tegotae; /* [1] Eq. 5: fixed feedback gain of the Tegotae baseline */
-    apnc_real grf_reset; /* [1] load, over a quarter of the weight, that resets the phase when crossed upwards (phase-resetting baseline) */
-} apnc_parameters;
-
-/* Inputs of one tick. */
-typedef struct {
-    apnc_real grf[APNC_LEGS]; /* [N] Eq. 5: load on the foot; not finite, negative or above 1000 weights counts as zero and raises fault */
-    apnc_real MI; /* [1] Eq. 3: modulatory input: sets the stepping frequency; limited to its range */
-    apnc_real turn; /* [1] Eq. 4: steering, positive turns left: scales the amplitudes of the right legs up and of the left legs down; limited to its range */
-    int32_t reset; /* while true, oscillators, learners and forward models are held at their start state; the stored phase relations are kept */
-} apnc_inputs;
-
-/* Outputs and local variables of one tick. */
-typedef struct {
-    apnc_real theta_hip[APNC_LEGS]; /* [rad] Eq. 4: command of the hip joint, relative to the reference pose */
-    apnc_real theta_knee[APNC_LEGS]; /* [rad] Eq. 4: command of the knee joint, relative to the reference pose */
-    apnc_real o1[APNC_LEGS]; /* [1] Eq. 2: output of neuron N1 */
-    apnc_real o2[APNC_LEGS]; /* [1] Eq. 2: output of neuron N2 */
-    apnc_real gamma[APNC_LEGS]; /* [1] Eq. 5, 9: gain of the sensory feedback as it acts in Eq. 5: K_f + K_s (Eq. 9), times feedback_kept while the couplings are on; gamma_tegotae or 0 in the baselines */
-    apnc_real grf_expected[APNC_LEGS]; /* [1] Eq. 10: expected load over half the weight */
-    apnc_real f1[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N1 */
-    apnc_real f2[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N2 */
-    apnc_real g1[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N1, as added to its activation */
-    apnc_real g2[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N2, as added to its activation */
-    int32_t fault[APNC_LEGS]; /* true while the load input of the leg is unusable */
-    apnc_real phi[APNC_RELATIONS]; /* [rad] Eq. 12: relative phase phi_1k of legs 1 and k = index + 1, in [-pi/2, 3 pi/2) */
-    apnc_real phi_memory[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k stored in the couplings; zero while there is none */
-    apnc_real d; /* [rad] Eq. 15: distance of the relative phases from their mean */
-    apnc_real kappa; /* [1] Eq. 16: 1 while the neural couplings are on, else 0 */
-    int32_t tick; /* Eq. 1: number of ticks run since the start */
-    apnc_real K_f[APNC_LEGS]; /* [1] Eq. 7: state of the fast learner */
-    apnc_real K_s[APNC_LEGS]; /* [1] Eq. 8: state of the slow learner */
-} apnc_outputs;
-
-/* Everything an importer can see, in one block. */
-typedef struct {
-    apnc_parameters parameters;
-    apnc_inputs inputs;
-    apnc_outputs outputs;
-} apnc_data;
-
-typedef enum { APNC_REAL, APNC_INTEGER, APNC_BOOLEAN, APNC_ENUMERATION } apnc_type;
-
-typedef enum { APNC_INPUT, APNC_OUTPUT, APNC_LOCAL, APNC_FIXED, APNC_TUNABLE } apnc_role;
-
-/* How to reach, name and check one row. */
-typedef struct {
-    const char *name;
-    const char *before; /* scalar name = before + index + after; before alone if count is 1 */
-    const char *after;
-    size_t offset; /* of the first entry in apnc_data [bytes] */
-    int count;
-    apnc_type type;
-    apnc_role role;
-    apnc_real start;
-    apnc_real min; /* inclusive; min > max: no range */
-    apnc_real max;
-} apnc_row;
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-static const apnc_row apnc_rows[APNC_ROWS];
-#ifdef __cplusplus
-}
 #endif
 
 #endif
@@ -400,6 +216,206 @@ static inline apnc_real apnc_angle(apnc_real y, apnc_real x) {
 #ifndef APNC_H
 #define APNC_H
 
+/* Variables of the controller: structs, one field per row of the table.
+ *
+ * Generated from apnc_core/variables.py by `python -m build_fmu.generate`; do not edit.
+ */
+#ifndef APNC_VARIABLES_H
+#define APNC_VARIABLES_H
+
+/* A row of a table of variables, the controller's or the robot's: how to reach, name and check it.
+ *
+ * Generated from apnc_core/schema.py by `python -m build_fmu.generate`; do not edit.
+ */
+#ifndef APNC_ROW_H
+#define APNC_ROW_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Names that a linker sees carry a prefix, so that two builds in one program share none. */
+#ifndef APNC_NAMES_H
+#define APNC_NAMES_H
+
+
+#define APNC_PASTE(a, b) a##b
+#define APNC_JOIN(a, b)  APNC_PASTE(a, b)
+
+/* The build of an FMU takes its guid; the core alone its number of legs and of digits. */
+#ifndef APNC_PREFIX
+#ifdef APNC_SINGLE
+#define APNC_PREFIX APNC_JOIN(APNC_JOIN(apnc, APNC_LEGS), f_)
+#else
+#define APNC_PREFIX APNC_JOIN(APNC_JOIN(apnc, APNC_LEGS), _)
+#endif
+#endif
+
+#define APNC_NAME(name) APNC_JOIN(APNC_PREFIX, name)
+
+#define apnc_rows     APNC_NAME(rows)
+#define apnc_defaults APNC_NAME(defaults)
+#define apnc_init     APNC_NAME(init)
+#define apnc_reset    APNC_NAME(reset)
+#define apnc_tick     APNC_NAME(tick)
+
+#endif
+
+#if APNC_LEGS < 2 || APNC_LEGS > 64
+#error "APNC_LEGS must be 2 to 64"
+#endif
+
+#define APNC_VR_STRIDE 100u  /* value reference = stride * row + element */
+#define APNC_VR_TIME   9900u /* of the independent variable in FMI 3.0 */
+
+typedef enum { APNC_REAL, APNC_INTEGER, APNC_BOOLEAN, APNC_ENUMERATION } apnc_type;
+
+typedef enum { APNC_INPUT, APNC_OUTPUT, APNC_LOCAL, APNC_FIXED, APNC_TUNABLE } apnc_role;
+
+typedef struct {
+    const char *name;
+    const char *before; /* scalar name = before + index + after; before alone if count is 1 */
+    const char *after;
+    size_t offset; /* of the first entry in the values of all rows [bytes] */
+    int count;
+    apnc_type type;
+    apnc_role role;
+    apnc_real start;
+    apnc_real min; /* inclusive; min > max: no range */
+    apnc_real max;
+} apnc_row;
+
+#endif
+
+#define APNC_RELATIONS (APNC_LEGS - 1) /* phase relations phi_1k, k = 2 ... APNC_LEGS */
+#define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
+#define APNC_KERNELS 20 /* radial basis functions of the forward model */
+#define APNC_KERNEL_WIDTH 0.04 /* distance squared at which they fall to 1/e */
+#define APNC_OVERLAP 1.15 /* mean of their sum over the angle of the cycle */
+#define APNC_CENTRES {{0.85, 0.0}, {0.87, 0.28}, {0.88, 0.64}, {0.57, 0.79}, {0.27, 0.83}, {0.0, 0.85}, {-0.28, 0.87}, {-0.64, 0.88}, {-0.79, 0.57}, {-0.83, 0.27}, {-0.85, 0.0}, {-0.87, -0.28}, {-0.88, -0.64}, {-0.57, -0.79}, {-0.27, -0.83}, {0.0, -0.85}, {0.28, -0.87}, {0.64, -0.88}, {0.79, -0.57}, {0.83, -0.27}}
+#define APNC_ROWS 59
+
+#define APNC_MI_START 0.08
+#define APNC_MI_MIN (0.0)
+#define APNC_MI_MAX 1.0
+#define APNC_TURN_START 0.0
+#define APNC_TURN_MIN (-1.0)
+#define APNC_TURN_MAX 1.0
+
+typedef enum {
+    APNC_METHOD_APNC = 1, /* adaptive physical and neural communication, Eq. 1-18 */
+    APNC_METHOD_APC = 2, /* adaptive physical communication only, Eq. 1-11 */
+    APNC_METHOD_TEGOTAE = 3, /* Tegotae baseline: Eq. 5 with a fixed gain */
+    APNC_METHOD_PHASE_RESET = 4, /* phase-resetting baseline: activations set to (1, 0) at touch-down */
+} apnc_method;
+
+typedef enum {
+    APNC_FORWARD_MODEL_LOW_PASS_HIP = 1, /* low-passed stance of the hip command, Eq. 10-11 as printed */
+    APNC_FORWARD_MODEL_LOW_PASS_KNEE = 2, /* Eq. 10-11 with the knee command, as the text of section 2.1.2 has it */
+    APNC_FORWARD_MODEL_RADIAL_BASIS = 3, /* radial basis functions of (o1, o2) that learn the load */
+} apnc_forward_model;
+
+typedef enum {
+    APNC_PHASE_MEASURE_VECTOR = 1, /* low-passed angle between the vectors (o1, o2) of two legs */
+    APNC_PHASE_MEASURE_PEAK = 2, /* times of the peaks of o1, Eq. 12 */
+} apnc_phase_measure;
+
+typedef enum {
+    APNC_KAPPA_RULE_ARMED = 1, /* armed once d has exceeded sigma, on after kappa_hold ticks at or below it, then kept */
+    APNC_KAPPA_RULE_PRINTED = 2, /* Eq. 16 as printed: on whenever d is at or below sigma */
+} apnc_kappa_rule;
+
+typedef enum {
+    APNC_COUPLING_SIGN_REVERSED = 1, /* g subtracted: recovers the stored gait */
+    APNC_COUPLING_SIGN_PRINTED = 2, /* g added, as printed in Eq. 18 */
+} apnc_coupling_sign;
+
+/* Parameters. */
+typedef struct {
+    apnc_real Ts; /* [s] time between two ticks of the controller */
+    apnc_real robot_weight; /* [N] Eq. 5: weight of the robot; half of it normalises the load */
+    apnc_real F_max; /* [1] Eq. 5: largest load over half the weight that the circuits see; a higher one, as in an impact or under a payload, counts as this */
+    int32_t method; /* which controller runs */
+    apnc_real w11; /* [1] Eq. 3: self-weight of both neurons, w11 = w22 */
+    apnc_real w12_0; /* [1] Eq. 3: cross-weight at MI = 0: w12 = w12_0 + MI, w21 = -w12 */
+    apnc_real bias; /* [1] Eq. 1: bias added to both activations; the paper has none */
+    apnc_real o1_start; /* [1] Eq. 2: start output of neuron N1, the same for every leg */
+    apnc_real o2_start; /* [1] Eq. 2: start output of neuron N2, the same for every leg */
+    apnc_real a1; /* [rad] Eq. 4: slope of the motor neuron of the hip */
+    apnc_real a2; /* [rad] Eq. 4: slope of the motor neuron of the knee */
+    apnc_real b1; /* [rad] Eq. 4: offset of the motor neuron of the hip */
+    apnc_real b2; /* [rad] Eq. 4: offset of the motor neuron of the knee */
+    apnc_real turn_gain; /* [1] Eq. 4: relative change of the amplitudes at full steering */
+    apnc_real A_f; /* [1] Eq. 7: retention of the fast learner */
+    apnc_real B_f; /* [1] Eq. 7: learning rate of the fast learner */
+    apnc_real A_s; /* [1] Eq. 8: retention of the slow learner */
+    apnc_real B_s; /* [1] Eq. 8: learning rate of the slow learner */
+    apnc_real alpha; /* [1] Eq. 10: scale of the expected load */
+    apnc_real rho; /* [1] Eq. 10: shape of the expected load */
+    int32_t forward_model; /* Eq. 10, 11: what the expected load is made of */
+    apnc_real rbf_rate; /* [1] Eq. 10: learning rate of the radial-basis forward model */
+    int32_t phase_measure; /* Eq. 12: how the relative phases are measured; the paper prints peak */
+    apnc_real phase_filter; /* [1] Eq. 12: new part per tick in the low-pass of the vector phase measure */
+    int32_t N; /* Eq. 14: ticks in the mean of the relative phases */
+    apnc_real sigma; /* [rad] Eq. 16: threshold of d below which the phases count as stable */
+    int32_t kappa_rule; /* Eq. 16: when the couplings switch on; the paper prints Eq. 16 */
+    int32_t kappa_hold; /* Eq. 16: ticks that d stays at or below sigma before kappa switches on */
+    apnc_real xi; /* [1] Eq. 17: gain of the neural communication */
+    apnc_real feedback_kept; /* [1] Eq. 5: share of the sensory feedback that stays while the couplings are on; 1 as in the equations */
+    int32_t coupling_sign; /* Eq. 18: sign of the coupling term; the paper prints plus */
+    int32_t phi_frozen; /* Eq. 17: true: the couplings hold the phases measured when kappa switched on; false: the phases measured now, as Eq. 17 reads */
+    int32_t MI_zero_resets; /* Eq. 3: true: MI = 0 acts as reset; false: the oscillators run on at w12 = w12_0, as Eq. 3 reads */
+    int32_t stored; /* Eq. 17: true: start with the relations phi_stored learned and the couplings on */
+    apnc_real phi_stored[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k that a start with stored = true holds */
+    apnc_real gamma_tegotae; /* [1] Eq. 5: fixed feedback gain of the Tegotae baseline */
+    apnc_real grf_reset; /* [1] load, over a quarter of the weight, that resets the phase when crossed upwards (phase-resetting baseline) */
+} apnc_parameters;
+
+/* Inputs of one tick. */
+typedef struct {
+    apnc_real grf[APNC_LEGS]; /* [N] Eq. 5: load on the foot; not finite, negative or above 1000 weights counts as zero and raises fault */
+    apnc_real MI; /* [1] Eq. 3: modulatory input: sets the stepping frequency; limited to its range */
+    apnc_real turn; /* [1] Eq. 4: steering, positive turns left: scales the amplitudes of the right legs up and of the left legs down; limited to its range */
+    int32_t reset; /* while true, oscillators, learners and forward models are held at their start state; the stored phase relations are kept */
+} apnc_inputs;
+
+/* Outputs and local variables of one tick. */
+typedef struct {
+    apnc_real theta_hip[APNC_LEGS]; /* [rad] Eq. 4: command of the hip joint, relative to the reference pose */
+    apnc_real theta_knee[APNC_LEGS]; /* [rad] Eq. 4: command of the knee joint, relative to the reference pose */
+    apnc_real o1[APNC_LEGS]; /* [1] Eq. 2: output of neuron N1 */
+    apnc_real o2[APNC_LEGS]; /* [1] Eq. 2: output of neuron N2 */
+    apnc_real gamma[APNC_LEGS]; /* [1] Eq. 5, 9: gain of the sensory feedback as it acts in Eq. 5: K_f + K_s (Eq. 9), times feedback_kept while the couplings are on; gamma_tegotae or 0 in the baselines */
+    apnc_real grf_expected[APNC_LEGS]; /* [1] Eq. 10: expected load over half the weight */
+    apnc_real f1[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N1 */
+    apnc_real f2[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N2 */
+    apnc_real g1[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N1, as added to its activation */
+    apnc_real g2[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N2, as added to its activation */
+    int32_t fault[APNC_LEGS]; /* true while the load input of the leg is unusable */
+    apnc_real phi[APNC_RELATIONS]; /* [rad] Eq. 12: relative phase phi_1k of legs 1 and k = index + 1, in [-pi/2, 3 pi/2) */
+    apnc_real phi_memory[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k stored in the couplings; zero while there is none */
+    apnc_real d; /* [rad] Eq. 15: distance of the relative phases from their mean */
+    apnc_real kappa; /* [1] Eq. 16: 1 while the neural couplings are on, else 0 */
+    int32_t tick; /* Eq. 1: number of ticks run since the start */
+    apnc_real K_f[APNC_LEGS]; /* [1] Eq. 7: state of the fast learner */
+    apnc_real K_s[APNC_LEGS]; /* [1] Eq. 8: state of the slow learner */
+} apnc_outputs;
+
+/* Everything an importer can see, in one block. */
+typedef struct {
+    apnc_parameters parameters;
+    apnc_inputs inputs;
+    apnc_outputs outputs;
+} apnc_data;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+static const apnc_row apnc_rows[APNC_ROWS];
+#ifdef __cplusplus
+}
+#endif
+
+#endif
 
 #ifdef __cplusplus
 extern "C" {
