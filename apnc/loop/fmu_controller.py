@@ -49,7 +49,12 @@ class Block:
         self.places = {m.variable: slice(at - m.element, at + 1) for at, m in enumerate(members)}
 
 
-def _names_in(description: Any) -> tuple[int, str]:
+def names_in(description: Any) -> tuple[int, str]:
+    """Number of legs of a controller FMU and the naming of its variables.
+
+    Raises:
+        FmuError: it is another FMU.
+    """
     names = {v.name for v in description.modelVariables}
     load = row("grf")
     for naming in ("structured", "flat"):
@@ -59,6 +64,20 @@ def _names_in(description: Any) -> tuple[int, str]:
         if n_legs >= 2 and {s.name for s in scalars(n_legs, naming)} <= names:
             return n_legs, naming
     raise FmuError(f"'{description.modelName}' is not an APNC controller: its variables differ")
+
+
+def members_by_name(n_legs: int, naming: str) -> dict[str, list[Scalar]]:
+    """The scalars of every row of the table."""
+    members: dict[str, list[Scalar]] = {}
+    for scalar in scalars(n_legs, naming):
+        members.setdefault(scalar.variable.name, []).append(scalar)
+    return members
+
+
+def unknown_parameter(name: str) -> str:
+    """What to say of a parameter that the controller does not have."""
+    known = ", ".join(v.name for v in TABLE if v.causality is Causality.parameter)
+    return f"parameter '{name}' is not one of {known}"
 
 
 class FmuController(contextlib.ExitStack):
@@ -84,7 +103,7 @@ class FmuController(contextlib.ExitStack):
         self.messages: list[str] = []
         self.wall_s = 0.0
         description = check_fmu(path)
-        self.n_legs, self.naming = _names_in(description)
+        self.n_legs, self.naming = names_in(description)
         with contextlib.ExitStack() as start:
             folder = tempfile.TemporaryDirectory(prefix="apnc-", ignore_cleanup_errors=True)
             self._instantiate(path, description, start.enter_context(folder))
@@ -138,15 +157,10 @@ class FmuController(contextlib.ExitStack):
         except FMICallException as error:
             raise FmuError(self._why(error)) from error
 
-    def _members(self, name: str) -> list[Scalar]:
-        members = [s for s in scalars(self.n_legs, self.naming) if s.variable.name == name]
-        if not members:
-            known = ", ".join(v.name for v in TABLE if v.causality is Causality.parameter)
-            raise FmuError(f"parameter '{name}' is not one of {known}")
-        return members
-
     def _write(self, name: str, value: Setting) -> None:
-        members = self._members(name)
+        members = members_by_name(self.n_legs, self.naming).get(name)
+        if not members:
+            raise FmuError(unknown_parameter(name))
         values = list(value) if isinstance(value, Sequence) else [value] * len(members)
         if len(values) != len(members):
             raise FmuError(f"{name} takes {len(members)} values, not {len(values)}")

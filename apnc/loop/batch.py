@@ -1,0 +1,287 @@
+"""Closed loops of controller and robot in C: runs side by side in the lanes of one plant."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from apnc.loop.controller_library import ControllerLibrary, controller_library
+from apnc.loop.experiment import Experiment, conditions_of
+from apnc.loop.record import End, Record
+from apnc.loop.steps import steps_of
+from apnc_core.schema import Shape
+from apnc_plant.chance import side_offset
+from apnc_plant.coordinates import BASE, JOINT_SIGN
+from apnc_plant.ground import ground_numbers
+from apnc_plant.library import aligned_memory, library
+from apnc_plant.numbers import conditions_numbers, robot_numbers
+from apnc_plant.robot.model import Array
+from apnc_plant.sample import channels_of, sample_size
+from apnc_plant.start import start_coordinates
+from build_fmu.build import host_fmu
+
+_STEADY: Final = 1e-9
+"""Ticks within which the start of a step over time counts as the tick's own [1]."""
+
+
+def fmu_of(experiment: Experiment) -> str:
+    """Path of the controller that walks an experiment.
+
+    Raises:
+        BuildError: it is not among those that came with the package, and cannot be built.
+    """
+    return experiment.fmu or str(host_fmu(len(experiment.description.legs)))
+
+
+class Run:
+    """An experiment as C walks it, and what it leaves behind.
+
+    Args:
+        experiment: what is run; its engine is not looked at.
+        controller: the FMU that walks it.
+    """
+
+    def __init__(self, experiment: Experiment, controller: ControllerLibrary) -> None:
+        ffi, _ = library()
+        self.experiment, self._controller = experiment, controller
+        robot, ground = experiment.description, experiment.ground
+        steps = [(tick, conditions_of(c)) for tick, c in _ticks(experiment, "conditions")]
+        first = steps[0][1]
+        names, n_legs = tuple(leg.name for leg in robot.legs), len(robot.legs)
+        self.mass = robot.mass + first.payload
+        numbers = robot_numbers(
+            robot, side_offset=side_offset(robot, experiment.seed), payload=first.payload
+        )
+        surface = ground_numbers(ground, robot.contact.foot_radius)
+        start = start_coordinates(robot, ground, np.zeros(3), 0.0)
+        start[BASE:] *= np.tile(JOINT_SIGN, n_legs)
+        conditions = [conditions_numbers(c, names, robot.weight) for _, c in steps]
+        parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
+        starts, kept = controller.starts(parameters)
+        ticks = experiment.ticks
+        self._samples = np.empty((ticks, sample_size(n_legs)))
+        self._shown = np.empty((ticks, len(controller.recorded)))
+        schedules = {name: _schedule(experiment, name) for name in ("mi", "turn", "reset")}
+        fields = {
+            "guid": controller.guid,
+            "starts": starts,
+            "robot": numbers.at,
+            "ground": surface.at,
+            "seed": experiment.seed,
+            "coordinates": ffi.new("double[]", start.tolist()),
+            "height": first.held_at or 0.0,
+            "ticks": ticks,
+            **{name: schedule for name, (schedule, _) in schedules.items()},
+            "n_conditions": len(steps),
+            "condition_tick": ffi.new("int32_t[]", [tick for tick, _ in steps]),
+            "condition": ffi.new("plant_conditions[]", [c.at[0] for c in conditions]),
+            "plant_record": ffi.from_buffer("double[]", self._samples),
+            "controller_record": ffi.from_buffer("double[]", self._shown),
+        }
+        self._kept = (fields, numbers, surface, conditions, kept, schedules)
+        self.at = ffi.new("loop_run *", fields)
+        self.wall_s = 0.0
+
+    @property
+    def phi(self) -> Array:
+        """Relative phases that the controller showed at the last tick [rad], (n_legs - 1,)."""
+        first = next(
+            i for i, s in enumerate(self._controller.recorded) if s.variable.name == "phi"
+        )
+        return self._shown[max(0, self.at.count - 1), first : first + self._controller.n_legs - 1]
+
+    @property
+    def ticks(self) -> int:
+        """Ticks that were taken."""
+        return int(self.at.count)
+
+    def record(self, end: End | None = None) -> Record:
+        """What was recorded; arrays of it are views into one table.
+
+        Args:
+            end: how the run ended, if it was not by itself.
+
+        Raises:
+            ValueError: the controller refused.
+        """
+        ffi, lib = library()
+        message = ffi.string(self.at.message).decode(errors="replace")
+        if end is None and self.at.end == lib.LOOP_REFUSED:
+            raise ValueError(message)
+        ends = {
+            lib.LOOP_COMPLETE: End.complete,
+            lib.LOOP_FELL: End.fell,
+            lib.LOOP_DIVERGED: End.diverged,
+        }
+        found = end or ends[self.at.end]
+        if found is End.diverged:
+            message = f"the motion diverged before t = {self.ticks * self.experiment.Ts:.4f} s"
+        robot, count = self.experiment.description, self.ticks
+        return Record(
+            legs=tuple(leg.name for leg in robot.legs),
+            time=np.arange(count, dtype=np.float64) * self.experiment.Ts,
+            plant=channels_of(self._samples[:count], len(robot.legs)),
+            controller=_by_variable(self._controller, self._shown[:count]),
+            mass=self.mass,
+            experiment=self.experiment,
+            robot=robot,
+            end=found,
+            message=message,
+            fmu_wall_s=float(self.at.controller_s),
+            wall_s=self.wall_s,
+        )
+
+
+def _by_variable(controller: ControllerLibrary, rows: Array) -> dict[str, Array]:
+    places: dict[Any, list[int]] = {}
+    for at, scalar in enumerate(controller.recorded):
+        places.setdefault(scalar.variable, []).append(at)
+    return {
+        variable.name: rows[:, at[0]]
+        if variable.shape is Shape.scalar
+        else rows[:, at[0] : at[-1] + 1]
+        for variable, at in places.items()
+    }
+
+
+def _ticks(experiment: Experiment, name: str) -> list[tuple[int, Any]]:
+    """Steps of a quantity by the tick from which each holds, later ones of a tick alone."""
+    found: dict[int, Any] = {}
+    for start, value in steps_of(getattr(experiment, name)):
+        found[_first_tick(start, experiment.Ts)] = value
+    return sorted(found.items())
+
+
+def _first_tick(start: float, Ts: float) -> int:
+    """The first tick n with n Ts at or after a time, as the loop in Python asks for it."""
+    n = max(0, int(start / Ts) - 1)
+    while n * Ts < start:
+        n += 1
+    return n
+
+
+def _schedule(experiment: Experiment, name: str) -> tuple[dict[str, Any], tuple[Any, ...]]:
+    ffi, _ = library()
+    steps = _ticks(experiment, name)
+    ticks = ffi.new("int32_t[]", [min(tick, 2**31 - 1) for tick, _ in steps])
+    values = ffi.new("double[]", [float(value) for _, value in steps])
+    return {"n": len(steps), "tick": ticks, "value": values}, (ticks, values)
+
+
+@dataclass(frozen=True)
+class Lanes:
+    """What runs must have in common to walk side by side.
+
+    Args:
+        fmu: path of the controller.
+        n_legs: number of legs.
+        rate: of the controller [Hz].
+        step: longest integration step [s].
+        latency: of the servos [s].
+        delay: of the sensors [s].
+        flat: whether the ground is a plane.
+    """
+
+    fmu: str
+    n_legs: int
+    rate: float
+    step: float
+    latency: float
+    delay: float
+    flat: bool
+
+
+def lanes_of(experiment: Experiment) -> Lanes:
+    """With which other experiments one can walk side by side."""
+    robot = experiment.description
+    return Lanes(
+        fmu_of(experiment),
+        len(robot.legs),
+        experiment.rate,
+        experiment.step,
+        robot.servo.latency,
+        robot.sensor.delay,
+        experiment.ground.flat,
+    )
+
+
+class Batch:
+    """Closed loops that walk side by side.
+
+    Args:
+        lanes: what the runs have in common.
+        contacts: the most places of contact of a foot with any of their grounds.
+        single: one run alone, its legs side by side, instead of several runs.
+
+    Attributes:
+        size: number of lanes.
+        controller: the FMU that walks the runs.
+    """
+
+    def __init__(self, lanes: Lanes, contacts: int, *, single: bool = False) -> None:
+        ffi, lib = library()
+        self.controller = controller_library(lanes.fmu)
+        if self.controller.n_legs != lanes.n_legs:
+            raise ValueError(
+                f"{lanes.fmu} is for {self.controller.n_legs} legs; the robot has {lanes.n_legs}"
+            )
+        kind = lib.PLANT_LEGS if single else lib.PLANT_ROBOTS
+        level, Ts = lib.plant_best_level(), 1.0 / lanes.rate
+        history = lib.plant_history(lanes.latency, lanes.delay, Ts)
+        shape = (kind, level, lanes.n_legs, 0 if lanes.flat else contacts, history)
+        self._memory, self._kept = aligned_memory(lib.loop_size(*shape))
+        lib.loop_create(
+            self._memory, *shape, self.controller.functions, self.controller.variables, Ts,
+            lanes.step,
+        )  # fmt: skip
+        self.size = int(lib.loop_lanes(self._memory))
+        self._stop = ffi.new("int32_t *", 0)
+        self._runs: list[Run | None] = [None] * self.size
+
+    @property
+    def free(self) -> int:
+        """Number of lanes without a run."""
+        return self._runs.count(None)
+
+    def begin(self, run: Run) -> None:
+        """Put a run into a free lane."""
+        _, lib = library()
+        lane = self._runs.index(None)
+        self._runs[lane] = run
+        lib.loop_begin(self._memory, lane, run.at)
+
+    def walk(self, ticks: int) -> list[Run]:
+        """Walk until a run has ended, or for so many ticks; the runs that have ended."""
+        _, lib = library()
+        begin, walking = time.perf_counter(), self.size - self.free
+        lib.loop_walk(self._memory, ticks, self._stop)
+        share = (time.perf_counter() - begin) / max(1, walking)
+        ended = []
+        for lane, run in enumerate(self._runs):
+            if run is None:
+                continue
+            run.wall_s += share
+            if run.at.end != lib.LOOP_RUNS:
+                ended.append(run)
+                self._runs[lane] = None
+        return ended
+
+    def stop(self) -> None:
+        """Let :meth:`walk` return soon, from another thread."""
+        self._stop[0] = 1
+
+    def close(self) -> None:
+        """Give back what the controllers of unfinished runs hold."""
+        _, lib = library()
+        lib.loop_free(self._memory)
+        self._runs = [None] * self.size
+
+
+def contacts_of(experiments: Sequence[Experiment]) -> int:
+    """The most places at which a foot touches any of the grounds."""
+    grounds = {(e.ground, e.description.contact.foot_radius) for e in experiments}
+    return max(ground.numbers(radius).contacts for ground, radius in grounds)

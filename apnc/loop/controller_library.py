@@ -1,0 +1,153 @@
+"""The controller FMU as a library of C functions, for closed loops in C."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import tempfile
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Final
+
+import fmpy
+
+from apnc.loop.fmu_controller import FmuError, Setting, check_fmu, members_by_name, names_in, unknown_parameter
+from apnc_core.schema import Causality, Type
+from apnc_core.variables import Scalar, scalars
+from apnc_plant.library import library
+from build_fmu.platforms import BuildError, library_of, why_not_loaded
+
+_FUNCTIONS: Final = {
+    "instantiate": "Instantiate",
+    "free_instance": "FreeInstance",
+    "setup_experiment": "SetupExperiment",
+    "enter_initialization": "EnterInitializationMode",
+    "exit_initialization": "ExitInitializationMode",
+    "set_real": "SetReal",
+    "set_integer": "SetInteger",
+    "set_boolean": "SetBoolean",
+    "do_step": "DoStep",
+    "get_real": "GetReal",
+    "get_integer": "GetInteger",
+    "get_boolean": "GetBoolean",
+}
+"""Members of ``loop_functions`` and the functions of FMI 2.0 they stand for."""
+
+_KINDS: Final = {Type.real: "real", Type.boolean: "boolean"}
+"""Type of a variable and its group in ``loop_starts``; the others are integers."""
+
+
+class ControllerLibrary:
+    """A controller FMU, unpacked and loaded; any number of instances can run at a time.
+
+    Args:
+        path: the FMU file.
+
+    Attributes:
+        n_legs: number of legs.
+        guid: of the FMU, for C.
+        functions, variables: ``loop_functions`` and ``loop_variables`` of C.
+        recorded: variables in the order of a row of the record in C.
+
+    Raises:
+        FmuError: no FMU, not this controller, or no binary for this machine.
+    """
+
+    def __init__(self, path: Path) -> None:
+        description = check_fmu(path)
+        self.n_legs, self._naming = names_in(description)
+        self._members = members_by_name(self.n_legs, self._naming)
+        # the library stays loaded to the end of the process, and so does its folder
+        self._folder = tempfile.TemporaryDirectory(prefix="apnc-", ignore_cleanup_errors=True)
+        fmpy.extract(str(path), unzipdir=self._folder.name)
+        folder = Path(self._folder.name)
+        try:
+            with contextlib.chdir(folder):
+                self._library = ctypes.CDLL(str(library_of(folder)))
+        except BuildError as error:
+            raise FmuError(f"{path}: {error}") from None
+        except OSError as error:
+            raise FmuError(f"{path}: {why_not_loaded(error, folder)}") from error
+        ffi, _ = library()
+        self.guid = ffi.new("char[]", description.guid.encode())
+        addresses = {
+            member: ffi.cast(
+                "void *", ctypes.cast(self._library[f"fmi2{name}"], ctypes.c_void_p).value or 0
+            )
+            for member, name in _FUNCTIONS.items()
+        }
+        self.functions = ffi.new("loop_functions *", addresses)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        ffi, _ = library()
+        members = list(scalars(self.n_legs, self._naming))
+
+        def those(kind: Type, *causes: Causality) -> list[Scalar]:
+            return [
+                m for m in members if m.variable.type is kind and m.variable.causality in causes
+            ]
+
+        shown = (Causality.output, Causality.local)
+        inputs, reset = those(Type.real, Causality.input), those(Type.boolean, Causality.input)
+        outputs = those(Type.real, *shown)
+        commands = [m for m in outputs if m.variable.name in ("theta_hip", "theta_knee")]
+        outputs = commands + [m for m in outputs if m not in commands]
+        whole, flags = those(Type.integer, *shown), those(Type.boolean, *shown)
+        self.recorded = [*inputs, *reset, *outputs, *whole, *flags]
+        self._references = [
+            ffi.new("uint32_t[]", [m.value_reference for m in group] or 1)
+            for group in (inputs, reset, outputs, whole, flags)
+        ]
+        named = dict(
+            zip(
+                ("inputs", "reset", "reals", "integers", "booleans"), self._references, strict=True
+            )
+        )
+        sizes = {"n_reals": len(outputs), "n_integers": len(whole), "n_booleans": len(flags)}
+        self.variables = ffi.new("loop_variables *", {"legs": self.n_legs, **named, **sizes})
+
+    def starts(self, parameters: Mapping[str, Setting]) -> tuple[Any, tuple[Any, ...]]:
+        """Start values as ``loop_starts``, and what it points to.
+
+        Raises:
+            FmuError: an unknown parameter, or a wrong number of values.
+        """
+        ffi, _ = library()
+        groups: dict[str, list[tuple[int, float]]] = {"real": [], "integer": [], "boolean": []}
+        for name, value in parameters.items():
+            if name not in self._members:
+                raise FmuError(unknown_parameter(name))
+            members = self._members[name]
+            values = list(value) if isinstance(value, Sequence) else [value] * len(members)
+            if len(values) != len(members):
+                raise FmuError(f"{name} takes {len(members)} values, not {len(values)}")
+            kind = _KINDS.get(members[0].variable.type, "integer")
+            groups[kind] += [
+                (m.value_reference, v) for m, v in zip(members, values, strict=True)
+            ]
+        kept, fields = [], {}
+        for kind, entries in groups.items():
+            reference = ffi.new("uint32_t[]", [vr for vr, _ in entries] or 1)
+            c_type, convert = ("double[]", float) if kind == "real" else ("int32_t[]", int)
+            values = ffi.new(c_type, [convert(value) for _, value in entries] or 1)
+            kept += [reference, values]
+            fields |= {kind: reference, f"{kind}s": values, f"n_{kind}s": len(entries)}
+        return ffi.new("loop_starts *", fields), tuple(kept)
+
+
+def controller_library(path: Path | str) -> ControllerLibrary:
+    """The library of an FMU, loaded once as long as the file stays as it is.
+
+    Raises:
+        FmuError: as :class:`ControllerLibrary`.
+    """
+    state = Path(path).stat() if Path(path).is_file() else None
+    stamp = (state.st_mtime_ns, state.st_size) if state else (0, 0)
+    return _loaded(Path(path).resolve(), stamp)
+
+
+@lru_cache(maxsize=16)
+def _loaded(path: Path, stamp: tuple[int, int]) -> ControllerLibrary:
+    return ControllerLibrary(path)
