@@ -96,6 +96,26 @@ void plant_create(void *memory, int32_t kind, int32_t level, int32_t legs, int32
         plant_create((char *)memory + h.scratch, PLANT_SCALAR, PLANT_BASELINE, legs, contacts, 1);
 }
 
+int32_t plant_intact(const void *memory, int32_t kind, int32_t level, int32_t legs,
+                     int32_t contacts, int32_t history) {
+    const plant_header own = layout(kind, level, legs, contacts, history);
+    plant_header h;
+    memcpy(&h, memory, sizeof h);
+    if (h.coming_first < 0 || h.coming_first >= history) return 0;
+    if (h.coming_count < 0 || h.coming_count > history) return 0;
+    if (h.loads_last < 0 || h.loads_last >= history) return 0;
+    if (h.loads_count < 1 || h.loads_count > history) return 0;
+    for (int32_t robot = 0; robot < own.robots; robot++)
+        if (h.fares[robot] < PLANT_WALKS || h.fares[robot] > PLANT_DIVERGED) return 0;
+    /* everything else says where the parts lie */
+    h.coming_first = h.coming_count = h.loads_last = h.loads_count = 0;
+    h.latency = h.delay = 0.0;
+    memset(h.fares, 0, sizeof h.fares);
+    memset(h.seed, 0, sizeof h.seed);
+    memset(h.readings, 0, sizeof h.readings);
+    return own.end && memcmp(&h, &own, sizeof h) == 0;
+}
+
 /* Number i of the struct of B at `part`, of a lane. */
 static double *of_robot(void *plant, size_t part, size_t i, int32_t lane) {
     const plant_header *h = (const plant_header *)plant;

@@ -170,6 +170,11 @@ int32_t plant_history(double latency, double delay, double Ts);
 void plant_create(void *memory, int32_t kind, int32_t level, int32_t legs, int32_t contacts,
                   int32_t history);
 
+/* Whether bytes that were stored, and may have been changed since, are a plant that plant_create
+ * made with these arguments: such a plant can be advanced, whatever its numbers are. */
+int32_t plant_intact(const void *memory, int32_t kind, int32_t level, int32_t legs,
+                     int32_t contacts, int32_t history);
+
 /* Put a robot into a lane, at rest at its start.
  *
  * coordinates: x, y, z [m], yaw, pitch, roll [rad] of the trunk, then abduction, hip and knee of
@@ -260,6 +265,45 @@ void plant_sensor_start(void *memory, int32_t legs, int32_t history, const plant
                         double weight, uint64_t seed);
 void plant_sensor_disturb(void *memory, const plant_conditions *conditions);
 void plant_sensor_read(void *memory, double duration, const double *load, double *grf);
+
+/* Bodies: a homogeneous box of edges `size` [m], and two rigidly connected. The trunk of a robot
+ * that carries a payload is its own body, whose centre of mass is off to the side by
+ * plant_side_offset, joined with the box. */
+void plant_box(double mass, const double *size, const double *com, plant_body *box);
+void plant_join(const plant_body *first, const plant_body *second, plant_body *joined);
+
+/* Sideways error of a trunk's centre of mass [m]: side by chance, amount within a quarter of
+ * `size` [m]. */
+double plant_side_offset(uint64_t seed, double size);
+
+/* Height of a ball's centre over the plane when it just touches what is below it [m]. found: room
+ * for the places of contact, as plant_touch. */
+double plant_rest_height(const plant_ground *ground, double x, double y, double radius,
+                         double *found);
+
+/* Coordinates, as plant_place takes them, of a robot at rest over the origin, parallel to the
+ * ground, its lowest foot `clearance` [m] above what is below it. angles: abduction, hip and knee
+ * of every leg [rad]; found: as above. */
+void plant_start(const plant_robot *robot, const plant_ground *ground, const double *angles,
+                 double clearance, double *found, double *coordinates);
+
+/* A field of obstacles by chance: caps of balls. */
+typedef struct {
+    uint64_t seed;
+    int64_t balls;            /* in a tile */
+    int64_t cells;            /* along an edge of a tile */
+    double tile;              /* [m] edge of the square that is repeated without end */
+    double height;            /* [m] by which the balls stand out */
+    double smallest, largest; /* [m] diameters of the balls */
+    double foot_radius;       /* [m] largest ball that touches them */
+    double sink_in;           /* [m] by which it may sink into the plane beside them */
+} plant_field;
+
+/* The numbers of a ground of the kind PLANT_OBSTACLES: how many there are, and they themselves.
+ * Returns the most places at which a ball touches at a time. */
+int64_t plant_field_reals(const plant_field *field);
+int64_t plant_field_integers(const plant_field *field);
+int32_t plant_field_fill(const plant_field *field, double *reals, int64_t *integers);
 
 /* Obstacles of a tile: place (x, y) in [0, tile) and radius of number `index`. */
 void plant_obstacle(uint64_t seed, int64_t index, double tile, double smallest, double largest,
