@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
@@ -80,11 +81,53 @@ class Variable:
 
     def scalar_name(self, element: int, naming: str = "structured") -> str:
         """FMI name of entry ``element`` (from 0): ``leg[1].grf``, or ``leg1_grf`` when flat."""
-        index = element + 1
+        index, flat = element + 1, naming == "flat"
+        name = self.identifier if flat else self.name
         if self.shape is Shape.scalar:
-            return self.name
+            return name
         if self.shape is Shape.leg:
-            return (
-                f"leg[{index}].{self.name}" if naming == "structured" else f"leg{index}_{self.name}"
-            )
-        return f"{self.name}[{index}]" if naming == "structured" else f"{self.name}{index}"
+            return f"leg{index}_{name}" if flat else f"leg[{index}].{name}"
+        return f"{name}{index}" if flat else f"{name}[{index}]"
+
+    @property
+    def identifier(self) -> str:
+        """Its name without points, as programming languages want it."""
+        return self.name.replace(".", "_")
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """One FMI scalar variable: an entry of a row."""
+
+    variable: Variable
+    element: int
+    value_reference: int
+    name: str
+
+
+def scalars_of(
+    table: tuple[Variable, ...],
+    numbers: Mapping[str, int],
+    n_legs: int,
+    naming: str = "structured",
+) -> Iterator[Scalar]:
+    """All scalar variables, in the order of the table, legs one after the other per row.
+
+    Args:
+        table: rows.
+        numbers: number of each row, by its name.
+        n_legs: number of legs, 2 to 64.
+        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``).
+
+    Raises:
+        ValueError: number of legs or naming outside what is allowed.
+    """
+    if not 2 <= n_legs <= MAX_LEGS:
+        raise ValueError(f"number of legs {n_legs} is not in 2 ... {MAX_LEGS}")
+    if naming not in ("structured", "flat"):
+        raise ValueError(f"naming '{naming}' is not structured or flat")
+    for variable in table:
+        first = VR_STRIDE * numbers[variable.name]
+        for element in range(variable.count(n_legs)):
+            name = variable.scalar_name(element, naming)
+            yield Scalar(variable, element, first + element, name)

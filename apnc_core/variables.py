@@ -7,7 +7,6 @@ table in the documentation are generated from it (``python -m build_fmu.generate
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, Final
 
 from apnc_core.enumerations import (
@@ -19,7 +18,9 @@ from apnc_core.enumerations import (
     PhaseMeasure,
 )
 from apnc_core.row_numbers import ROW_NUMBERS
-from apnc_core.schema import MAX_LEGS, VR_STRIDE, Causality, Shape, Type, Variable
+from apnc_core.schema import VR_STRIDE, Causality, Scalar, Shape, Type, Variable, scalars_of
+
+__all__ = ["N_WINDOW_MAX", "TABLE", "Scalar", "row", "rows", "scalars", "value_reference"]
 
 N_WINDOW_MAX: Final = 256
 """Largest averaging window of Eq. 14 [ticks]; fixes the size of the C state."""
@@ -312,18 +313,8 @@ TABLE: Final[tuple[Variable, ...]] = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Scalar:
-    """One FMI scalar variable: an entry of a row."""
-
-    variable: Variable
-    element: int
-    value_reference: int
-    name: str
-
-
 def scalars(n_legs: int = 4, naming: str = "structured") -> Iterator[Scalar]:
-    """All scalar variables, in the order of the table, legs one after the other per row.
+    """All scalar variables of the controller, see :func:`apnc_core.schema.scalars_of`.
 
     Args:
         n_legs: number of legs, 2 to 64.
@@ -332,15 +323,7 @@ def scalars(n_legs: int = 4, naming: str = "structured") -> Iterator[Scalar]:
     Raises:
         ValueError: number of legs or naming outside what is allowed.
     """
-    if not 2 <= n_legs <= MAX_LEGS:
-        raise ValueError(f"number of legs {n_legs} is not in 2 ... {MAX_LEGS}")
-    if naming not in ("structured", "flat"):
-        raise ValueError(f"naming '{naming}' is not structured or flat")
-    for variable in TABLE:
-        first = value_reference(variable.name)
-        for element in range(variable.count(n_legs)):
-            name = variable.scalar_name(element, naming)
-            yield Scalar(variable, element, first + element, name)
+    return scalars_of(TABLE, ROW_NUMBERS, n_legs, naming)
 
 
 def value_reference(name: str) -> int:

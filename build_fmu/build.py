@@ -15,7 +15,9 @@ import apnc_core
 from build_fmu import sources
 from build_fmu.cache import cache_folder, write_atomically
 from build_fmu.compile import compile_library, compiler_version
-from build_fmu.documentation import documentation
+from build_fmu.controller import controller_model
+from build_fmu.documentation import controller_documentation
+from build_fmu.model import Model
 from build_fmu.model_description import model_description
 from build_fmu.model_description_fmi3 import build_description, model_description_fmi3
 from build_fmu.options import BuildOptions
@@ -45,30 +47,63 @@ def fmu_bytes(
     Raises:
         BuildError: the compiler failed.
     """
-    files = files or sources.collect(options.fmi)
+    return built(
+        controller_model(options),
+        files or sources.collect(options.fmi),
+        lambda guid: {"apnc_config.h": sources.config_header(options, guid)},
+        controller_documentation(options),
+        options.platforms,
+        progress,
+    )
+
+
+def built(
+    model: Model,
+    files: dict[str, bytes],
+    configured: Callable[[str], dict[str, bytes]],
+    pages: dict[str, bytes],
+    platforms: tuple[str, ...],
+    progress: Progress = lambda platform: None,
+) -> bytes:
+    """The FMU of any model as bytes.
+
+    Args:
+        model: what it shows.
+        files: C sources and headers by name.
+        configured: gives the configuration headers for a guid.
+        pages: other files by their path in the FMU.
+        platforms: names of the binaries to include.
+        progress: called with the platform that is compiled next.
+
+    Raises:
+        BuildError: the compiler failed.
+    """
     c_files = sources.c_files(files)
     # the guid stands for everything that the description and the binaries are made from
-    guid = sources.guid_of(_describe(options, c_files, ""), *files.values())
-    files = files | {"apnc_config.h": sources.config_header(options, guid)}
-    content = {"modelDescription.xml": _describe(options, c_files, guid)}
-    if options.fmi == 3:
-        content["sources/buildDescription.xml"] = build_description(c_files)
+    described = _describe(model, c_files, "")
+    guid = sources.guid_of(described, *files.values(), *configured("").values())
+    files = files | configured(guid)
+    content = {"modelDescription.xml": _describe(model, c_files, guid)}
+    if model.fmi == 3:
+        content["sources/buildDescription.xml"] = build_description(model, c_files)
     content |= {f"sources/{name}": text for name, text in files.items()}
-    content |= documentation(options)
+    content |= pages
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
             (Path(folder) / name).write_bytes(text)
         libraries = {}
-        for name in options.platforms:
+        for name in platforms:
             progress(name)
-            libraries[name] = compile_library(Path(folder), c_files, PLATFORMS[name])
-    return zip_fmu(content | placed(libraries, options.fmi))
+            libraries[name] = compile_library(
+                Path(folder), c_files, PLATFORMS[name], model.identifier
+            )
+    return zip_fmu(content | placed(libraries, model.fmi, model.identifier))
 
 
-def _describe(options: BuildOptions, c_files: list[str], guid: str) -> bytes:
-    if options.fmi == 3:
-        return model_description_fmi3(options, guid)
-    return model_description(options, c_files, guid)
+def _describe(model: Model, c_files: list[str], guid: str) -> bytes:
+    if model.fmi == 3:
+        return model_description_fmi3(model, guid)
+    return model_description(model, c_files, guid)
 
 
 def build_key(options: BuildOptions) -> str:

@@ -8,26 +8,28 @@ from lxml import etree
 
 import apnc_core
 from apnc_core.schema import Causality, Type, Variable
-from build_fmu.options import BuildOptions
+from build_fmu.model import Model
 
 UNITS: Final[dict[str, dict[str, str]]] = {
     "1": {},
     "s": {"s": "1"},
     "N": {"kg": "1", "m": "1", "s": "-2"},
     "rad": {"rad": "1"},
+    "kg": {"kg": "1"},
+    "m": {"m": "1"},
+    "m/s": {"m": "1", "s": "-1"},
+    "rad/s": {"rad": "1", "s": "-1"},
+    "N.m": {"kg": "1", "m": "2", "s": "-2"},
+    "J": {"kg": "1", "m": "2", "s": "-2"},
+    "N.m/rad": {"kg": "1", "m": "2", "s": "-2", "rad": "-1"},
+    "N.m.s/rad": {"kg": "1", "m": "2", "s": "-1", "rad": "-1"},
+    "kg.m2": {"kg": "1", "m": "2"},
+    "N/m": {"kg": "1", "s": "-2"},
+    "N.s/m": {"kg": "1", "s": "-1"},
 }
+"""Units of all models by exponents of the base units."""
+
 DEGREES_PER_RADIAN: Final = 57.29577951308232
-REAL_TYPES: Final = {
-    "1": ("Number", "dimensionless number", ""),
-    "s": ("Duration", "duration", "Time"),
-    "N": ("Load", "load on a foot, or a weight", "Force"),
-    "rad": ("Angle", "angle", "Angle"),
-}
-LOG_CATEGORIES: Final = {
-    "logStatusWarning": "unusable inputs",
-    "logStatusError": "wrong calls and values",
-    "logEvents": "life of the instance",
-}
 ABOUT: Final = {
     "author": "The APNC developers",
     "version": apnc_core.__version__,
@@ -36,15 +38,6 @@ ABOUT: Final = {
     "generationTool": f"apnc {apnc_core.__version__}",
 }
 STOP_TIME: Final = "45"
-_DESCRIPTION: Final = (
-    "Adaptive neural controller of a legged robot: self-organised, memorised gaits"
-)
-
-
-def about(options: BuildOptions) -> str:
-    """What the FMU is, and with which start values of its own."""
-    own = options.own_defaults()
-    return f"{_DESCRIPTION}; starts with {own}" if own else _DESCRIPTION
 
 
 def number(value: float | int | bool | None) -> str:
@@ -54,26 +47,26 @@ def number(value: float | int | bool | None) -> str:
     return str(int(value)) if isinstance(value, int) else repr(value)
 
 
-def add_units(root: etree._Element) -> None:
+def add_units(root: etree._Element, model: Model) -> None:
     """Append UnitDefinitions."""
     parent = etree.SubElement(root, "UnitDefinitions")
-    for name, exponents in UNITS.items():
+    for name in model.units:
         unit = etree.SubElement(parent, "Unit", name=name)
-        etree.SubElement(unit, "BaseUnit", **exponents)
+        etree.SubElement(unit, "BaseUnit", **UNITS[name])
         if name == "rad":
             etree.SubElement(unit, "DisplayUnit", name="deg", factor=repr(DEGREES_PER_RADIAN))
 
 
-def add_log_categories(root: etree._Element) -> None:
+def add_log_categories(root: etree._Element, model: Model) -> None:
     """Append LogCategories."""
     categories = etree.SubElement(root, "LogCategories")
-    for name, description in LOG_CATEGORIES.items():
+    for name, description in model.log_categories.items():
         etree.SubElement(categories, "Category", name=name, description=description)
 
 
-def add_experiment(root: etree._Element, options: BuildOptions) -> None:
-    """Append DefaultExperiment with the controller's tick as step size."""
-    step = number(options.parameters().Ts)
+def add_experiment(root: etree._Element, model: Model) -> None:
+    """Append DefaultExperiment with the model's tick as step size."""
+    step = number(model.step)
     etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime=STOP_TIME, stepSize=step)
 
 
@@ -84,23 +77,16 @@ def initial(v: Variable) -> dict[str, str]:
     return {"initial": "exact" if v.causality is Causality.parameter else "calculated"}
 
 
-def type_of(v: Variable, options: BuildOptions) -> Type:
-    """FMI type of a row: an enumeration becomes an integer where the build says so."""
-    if v.enumeration and options.enumerations == "integer":
-        return Type.integer
-    return v.type
-
-
-def typed_attributes(v: Variable, options: BuildOptions) -> dict[str, str]:
+def typed_attributes(v: Variable, model: Model) -> dict[str, str]:
     """Declared type, units and range."""
     attributes: dict[str, str] = {}
-    if v.enumeration and type_of(v, options) is Type.integer:
+    if v.enumeration and model.type_of(v) is Type.integer:
         return {"min": "1", "max": str(len(v.enumeration.items))}
     if v.enumeration:
         attributes["declaredType"] = v.enumeration.name
     elif v.type is Type.real:
         assert v.unit is not None
-        attributes["declaredType"] = REAL_TYPES[v.unit][0]
+        attributes["declaredType"] = model.types[v.unit].name
     for name, text in (("unit", v.unit), ("displayUnit", v.display_unit)):
         if text:
             attributes[name] = text

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import importlib.resources
 import re
+from collections.abc import Mapping
 from typing import Final
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
 import apnc_core
-from apnc_core.legs import leg_names
 from apnc_core.schema import Causality, Shape, Value, Variable
-from apnc_core.variables import rows
+from build_fmu.controller import controller_model
 from build_fmu.icon import icon_png
-from build_fmu.options import MODEL, BuildOptions, Setting, in_words
+from build_fmu.model import Model
+from build_fmu.options import BuildOptions, Setting, value_in_words
 from build_fmu.reference import FOLDER, TICKS, TOLERANCE, reference_files
 
 _GREEK: Final = {
@@ -26,60 +27,82 @@ _GREEK: Final = {
 }  # fmt: skip
 
 
-def documentation(options: BuildOptions) -> dict[str, bytes]:
-    """Files by their path in the FMU.
+def controller_documentation(options: BuildOptions) -> dict[str, bytes]:
+    """Files of the controller by their path in the FMU.
 
     Args:
         options: what is built; names and tables follow it.
     """
+    page = {
+        "own_defaults": options.own_defaults(),
+        "reference_folder": FOLDER if options.fmi == 2 else "",
+        "reference_stop": f"{TICKS * options.parameters().Ts:g}",
+        "reference_step": f"{options.parameters().Ts:g}",
+        "reference_tolerance": f"{TOLERANCE:g}",
+    }
+    files = documentation(
+        controller_model(options), page_of("build_fmu", "documentation_controller.html.j2"), page
+    )
+    return files | (reference_files(options) if options.fmi == 2 else {})
+
+
+def page_of(package: str, name: str) -> Template:
+    """A page that extends ``documentation.html.j2``.
+
+    Args:
+        package: whose folder ``templates`` holds it.
+        name: of the file.
+    """
+    loader = ChoiceLoader([PackageLoader(package), PackageLoader("build_fmu")])
+    env = Environment(loader=loader, undefined=StrictUndefined, autoescape=True)
+    env.filters |= {"symbol": _symbol, "paper": _paper, "span": _span}
+    return env.get_template(name)
+
+
+def documentation(model: Model, page: Template, more: Mapping[str, object]) -> dict[str, bytes]:
+    """Page, licences and icon of a model by their path in the FMU.
+
+    Args:
+        model: names and tables follow it.
+        page: of :func:`page_of`.
+        more: what else the page shows.
+    """
     files = {
-        "documentation/index.html": _page(options).encode(),
+        "documentation/index.html": _rendered(model, page, more).encode(),
         "documentation/licenses/license.txt": _template_text("license.txt").encode(),
         "documentation/licenses/fmi_headers.txt": _licence_of_the_headers().encode(),
     }
-    if options.fmi == 2:
-        files["model.png"] = icon_png()
-        files |= reference_files(options)
-    else:
-        files["terminalsAndIcons/icon.png"] = icon_png()
-    return files
+    icon = "model.png" if model.fmi == 2 else "terminalsAndIcons/icon.png"
+    return files | {icon: icon_png()}
 
 
-def _page(options: BuildOptions) -> str:
-    env = Environment(loader=PackageLoader("build_fmu"), undefined=StrictUndefined, autoescape=True)
-    env.filters |= {"symbol": _symbol, "paper": _paper, "span": _span, "entry": _entry(options)}
-    env.filters["start"] = lambda v: in_words(v.name, _alike(options.start(v)))
-    names = leg_names(options.legs)
-    return env.get_template("documentation.html.j2").render(
-        model=MODEL,
+def _rendered(model: Model, page: Template, more: Mapping[str, object]) -> str:
+    return page.render(
+        model=model.identifier,
         version=apnc_core.__version__,
-        legs=options.legs,
-        leg_names=names,
-        right=options.legs // 2,
-        own_defaults=options.own_defaults(),
-        fmi="2.0" if options.fmi == 2 else "3.0",
-        inputs=rows(Causality.input),
-        outputs=rows(Causality.output),
-        local=rows(Causality.local),
-        parameters=rows(Causality.parameter),
-        enumerations=[v for v in rows(Causality.parameter) if v.enumeration],
-        reference_folder=FOLDER if options.fmi == 2 else "",
-        reference_stop=f"{TICKS * options.parameters().Ts:g}",
-        reference_step=f"{options.parameters().Ts:g}",
-        reference_tolerance=f"{TOLERANCE:g}",
+        legs=len(model.legs),
+        leg_names=model.legs,
+        right=len(model.legs) // 2,
+        fmi="2.0" if model.fmi == 2 else "3.0",
+        inputs=model.rows(Causality.input),
+        outputs=model.rows(Causality.output),
+        local=model.rows(Causality.local),
+        parameters=model.rows(Causality.parameter),
+        enumerations=[v for v in model.rows(Causality.parameter) if v.enumeration],
+        of_paper=any(v.paper is not None for v in model.table),
+        entry=lambda v: _entry(model, v),
+        start=lambda v: value_in_words(v, _alike(model.start(v))),
+        **more,
     )
 
 
-def _entry(options: BuildOptions) -> object:
-    def name(v: Variable) -> str:
-        """``leg[1].grf ... leg[4].grf``, or the one name a row has."""
-        count = v.count(options.legs)
-        if v.shape is Shape.scalar or options.fmi == 3:
-            return v.name if v.shape is Shape.scalar else f"{v.name} [{count}]"
-        first, last = (v.scalar_name(i, options.naming) for i in (0, count - 1))
-        return first if count == 1 else f"{first} ... {last}"
-
-    return name
+def _entry(model: Model, v: Variable) -> str:
+    """``leg[1].grf ... leg[4].grf``, or the one name a row has."""
+    count = model.count(v)
+    if model.fmi == 3:
+        return v.name if v.shape is Shape.scalar else f"{v.name} [{count}]"
+    first, last = (v.scalar_name(i, model.naming) for i in (0, count - 1))
+    return first if count == 1 else f"{first} ... {last}"
 
 
 def _symbol(text: str) -> Markup:
@@ -95,7 +118,7 @@ def _alike(values: tuple[Value, ...]) -> Setting:
 
 
 def _paper(v: Variable) -> str:
-    return "" if v.paper is None else in_words(v.name, v.paper)
+    return "" if v.paper is None else value_in_words(v, v.paper)
 
 
 def _span(v: Variable) -> str:

@@ -4,62 +4,56 @@ from __future__ import annotations
 
 from lxml import etree
 
-from apnc_core.enumerations import ENUMERATIONS
-from apnc_core.legs import leg_names
-from apnc_core.schema import Causality, Shape, Variable
-from apnc_core.variables import Scalar, row, scalars
+from apnc_core.schema import Causality, Scalar, Shape
 from build_fmu.description_parts import (
     ABOUT,
-    REAL_TYPES,
-    about,
     add_experiment,
     add_log_categories,
     add_units,
     initial,
     number,
-    type_of,
     typed_attributes,
 )
-from build_fmu.options import MODEL, BuildOptions
+from build_fmu.model import Model
 
 
-def model_description(options: BuildOptions, c_files: list[str], guid: str) -> bytes:
+def model_description(model: Model, c_files: list[str], guid: str) -> bytes:
     """The XML text.
 
     Args:
-        options: number of legs and naming.
+        model: what is described.
         c_files: names of the files to compile, in ``sources/``.
         guid: what the binary checks.
     """
     root = etree.Element(
         "fmiModelDescription",
         fmiVersion="2.0",
-        modelName=MODEL,
+        modelName=model.identifier,
         guid=guid,
-        description=about(options),
+        description=model.about,
         **ABOUT,
-        variableNamingConvention="structured" if options.naming == "structured" else "flat",
+        variableNamingConvention="structured" if model.naming == "structured" else "flat",
         numberOfEventIndicators="0",
     )
-    _co_simulation(root, c_files)
-    add_units(root)
-    _types(etree.SubElement(root, "TypeDefinitions"))
-    add_log_categories(root)
-    add_experiment(root, options)
-    members = list(scalars(options.legs, options.naming))
+    _co_simulation(root, model, c_files)
+    add_units(root, model)
+    _types(etree.SubElement(root, "TypeDefinitions"), model)
+    add_log_categories(root, model)
+    add_experiment(root, model)
+    members = model.scalars()
     variables = etree.SubElement(root, "ModelVariables")
     for member in members:
-        _scalar_variable(variables, member, options)
-    _structure(etree.SubElement(root, "ModelStructure"), members)
+        _scalar_variable(variables, member, model)
+    _structure(etree.SubElement(root, "ModelStructure"), members, model)
     text: bytes = etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8")
     return text
 
 
-def _co_simulation(root: etree._Element, c_files: list[str]) -> None:
+def _co_simulation(root: etree._Element, model: Model, c_files: list[str]) -> None:
     element = etree.SubElement(
         root,
         "CoSimulation",
-        modelIdentifier=MODEL,
+        modelIdentifier=model.identifier,
         canHandleVariableCommunicationStepSize="true",
         canGetAndSetFMUstate="true",
         canSerializeFMUstate="true",
@@ -69,13 +63,14 @@ def _co_simulation(root: etree._Element, c_files: list[str]) -> None:
         etree.SubElement(files, "File", name=name)
 
 
-def _types(parent: etree._Element) -> None:
-    for unit, (name, description, quantity) in REAL_TYPES.items():
+def _types(parent: etree._Element, model: Model) -> None:
+    for unit in model.units:
+        name, description, quantity = model.types[unit]
         simple = etree.SubElement(parent, "SimpleType", name=name, description=description)
         real = etree.SubElement(simple, "Real", unit=unit)
         if quantity:
             real.set("quantity", quantity)
-    for enumeration in ENUMERATIONS:
+    for enumeration in model.enumerations:
         simple = etree.SubElement(parent, "SimpleType", name=enumeration.name)
         element = etree.SubElement(simple, "Enumeration")
         for item, text in zip(enumeration.items, enumeration.descriptions, strict=True):
@@ -84,34 +79,25 @@ def _types(parent: etree._Element) -> None:
             )
 
 
-def _scalar_variable(parent: etree._Element, member: Scalar, options: BuildOptions) -> None:
+def _scalar_variable(parent: etree._Element, member: Scalar, model: Model) -> None:
     v = member.variable
-    kind = type_of(v, options)
     element = etree.SubElement(
         parent,
         "ScalarVariable",
         name=member.name,
         valueReference=str(member.value_reference),
-        description=_description(v, member.element, leg_names(options.legs)),
+        description=model.describe(v, member.element),
         causality=v.causality.value,
         variability=v.variability,
         **initial(v),
     )
-    typed = etree.SubElement(element, kind.value, **typed_attributes(v, options))
-    for value in options.start(v)[member.element : member.element + 1]:
+    typed = etree.SubElement(element, model.type_of(v).value, **typed_attributes(v, model))
+    for value in model.start(v)[member.element : member.element + 1]:
         typed.set("start", number(value))
 
 
-def _description(v: Variable, element: int, legs: tuple[str, ...]) -> str:
-    if v.shape is Shape.leg:
-        return f"{legs[element]}: {v.description}"
-    if v.shape is Shape.relation:
-        return f"{legs[0]} and {legs[element + 1]}: {v.description}"
-    return v.description
-
-
-def _structure(parent: etree._Element, members: list[Scalar]) -> None:
-    """Outputs change at ticks only, so none depends on an input at the same instant."""
+def _structure(parent: etree._Element, members: list[Scalar], model: Model) -> None:
+    """Outputs change in steps only, so none depends on an input at the same instant."""
     position = {(m.variable.name, m.element): i + 1 for i, m in enumerate(members)}
     outputs = [m for m in members if m.variable.causality is Causality.output]
     listed = etree.SubElement(parent, "Outputs")
@@ -121,7 +107,7 @@ def _structure(parent: etree._Element, members: list[Scalar]) -> None:
     initial = etree.SubElement(parent, "InitialUnknowns")
     for member in outputs:
         sources = sorted(
-            position[name, 0 if row(name).shape is Shape.scalar else member.element]
+            position[name, 0 if model.row(name).shape is Shape.scalar else member.element]
             for name in member.variable.initial_from
         )
         etree.SubElement(

@@ -6,22 +6,17 @@ from typing import Final
 
 from lxml import etree
 
-from apnc_core.enumerations import ENUMERATIONS
 from apnc_core.schema import VR_TIME, Causality, Shape, Type, Variable
-from apnc_core.variables import TABLE, value_reference
 from build_fmu.description_parts import (
     ABOUT,
-    REAL_TYPES,
-    about,
     add_experiment,
     add_log_categories,
     add_units,
     initial,
     number,
-    type_of,
     typed_attributes,
 )
-from build_fmu.options import MODEL, BuildOptions
+from build_fmu.model import Model
 
 _TAGS: Final = {
     Type.real: "Float64",
@@ -31,34 +26,34 @@ _TAGS: Final = {
 }
 
 
-def model_description_fmi3(options: BuildOptions, token: str) -> bytes:
+def model_description_fmi3(model: Model, token: str) -> bytes:
     """The XML text.
 
     Args:
-        options: number of legs.
+        model: what is described.
         token: instantiation token, what the binary checks.
     """
     root = etree.Element(
         "fmiModelDescription",
         fmiVersion="3.0",
-        modelName=MODEL,
+        modelName=model.identifier,
         instantiationToken=token,
-        description=about(options),
+        description=model.about,
         **ABOUT,
         variableNamingConvention="structured",
     )
     etree.SubElement(
         root,
         "CoSimulation",
-        modelIdentifier=MODEL,
+        modelIdentifier=model.identifier,
         canGetAndSetFMUState="true",
         canSerializeFMUState="true",
         canHandleVariableCommunicationStepSize="true",
     )
-    add_units(root)
-    _add_types(etree.SubElement(root, "TypeDefinitions"))
-    add_log_categories(root)
-    add_experiment(root, options)
+    add_units(root, model)
+    _add_types(etree.SubElement(root, "TypeDefinitions"), model)
+    add_log_categories(root, model)
+    add_experiment(root, model)
     variables = etree.SubElement(root, "ModelVariables")
     etree.SubElement(
         variables,
@@ -70,17 +65,17 @@ def model_description_fmi3(options: BuildOptions, token: str) -> bytes:
         variability="continuous",
         unit="s",
     )
-    for variable in TABLE:
-        _add_variable(variables, variable, options)
-    _add_structure(etree.SubElement(root, "ModelStructure"))
+    for variable in model.table:
+        _add_variable(variables, variable, model)
+    _add_structure(etree.SubElement(root, "ModelStructure"), model)
     text: bytes = etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8")
     return text
 
 
-def build_description(c_files: list[str]) -> bytes:
+def build_description(model: Model, c_files: list[str]) -> bytes:
     """``sources/buildDescription.xml``: how to compile the sources."""
     root = etree.Element("fmiBuildDescription", fmiVersion="3.0")
-    configuration = etree.SubElement(root, "BuildConfiguration", modelIdentifier=MODEL)
+    configuration = etree.SubElement(root, "BuildConfiguration", modelIdentifier=model.identifier)
     files = etree.SubElement(configuration, "SourceFileSet", language="C11")
     for name in c_files:
         etree.SubElement(files, "SourceFile", name=name)
@@ -88,13 +83,14 @@ def build_description(c_files: list[str]) -> bytes:
     return text
 
 
-def _add_types(parent: etree._Element) -> None:
+def _add_types(parent: etree._Element, model: Model) -> None:
     """No ``description`` on a type: FMPy 0.3.23 and older refuse it."""
-    for unit, (name, _, quantity) in REAL_TYPES.items():
+    for unit in model.units:
+        name, _, quantity = model.types[unit]
         real = etree.SubElement(parent, "Float64Type", name=name, unit=unit)
         if quantity:
             real.set("quantity", quantity)
-    for enumeration in ENUMERATIONS:
+    for enumeration in model.enumerations:
         element = etree.SubElement(parent, "EnumerationType", name=enumeration.name)
         for item, text in zip(enumeration.items, enumeration.descriptions, strict=True):
             etree.SubElement(
@@ -102,28 +98,28 @@ def _add_types(parent: etree._Element) -> None:
             )
 
 
-def _add_variable(parent: etree._Element, v: Variable, options: BuildOptions) -> None:
+def _add_variable(parent: etree._Element, v: Variable, model: Model) -> None:
     element = etree.SubElement(
         parent,
-        _TAGS[type_of(v, options)],
+        _TAGS[model.type_of(v)],
         name=v.name,
-        valueReference=str(value_reference(v.name)),
+        valueReference=str(model.reference(v)),
         description=v.description,
         causality=v.causality.value,
         variability=v.variability,
         **initial(v),
-        **typed_attributes(v, options),
+        **typed_attributes(v, model),
     )
-    if start := options.start(v):
+    if start := model.start(v):
         element.set("start", " ".join(map(number, start)))
     if v.shape is not Shape.scalar:
-        etree.SubElement(element, "Dimension", start=str(v.count(options.legs)))
+        etree.SubElement(element, "Dimension", start=str(model.count(v)))
 
 
-def _add_structure(parent: etree._Element) -> None:
-    """Outputs change at ticks only, so none depends on an input at the same instant."""
-    reference = {v.name: str(value_reference(v.name)) for v in TABLE}
-    outputs = [v for v in TABLE if v.causality is Causality.output]
+def _add_structure(parent: etree._Element, model: Model) -> None:
+    """Outputs change in steps only, so none depends on an input at the same instant."""
+    reference = {v.name: str(model.reference(v)) for v in model.table}
+    outputs = model.rows(Causality.output)
     for v in outputs:
         etree.SubElement(parent, "Output", valueReference=reference[v.name], dependencies="")
     for v in outputs:

@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import Final
 
 from apnc_core import settings
 from apnc_core.interface import Parameters
 from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import MAX_LEGS, Causality, Value, Variable
 from apnc_core.variables import TABLE, row
-from build_fmu.platforms import MODEL, PLATFORMS, BuildError, Platform, host_platform
+from build_fmu.model import NAMINGS, check_choices
+from build_fmu.platforms import (
+    MODEL,
+    PLATFORMS,
+    BuildError,
+    Platform,
+    check_platforms,
+    host_platform,
+)
 
-__all__ = ["MODEL", "PLATFORMS", "BuildError", "BuildOptions", "Platform", "host_platform"]
-
-FMI_VERSIONS: Final = (2, 3)
-NAMINGS: Final = ("structured", "flat")
-ENUMERATIONS_AS: Final = ("enumeration", "integer")
+__all__ = [
+    "MODEL", "NAMINGS", "PLATFORMS", "BuildError", "BuildOptions", "Platform", "host_platform",
+]  # fmt: skip
 
 Setting = Value | str | Sequence[float]
 """A value of a parameter: a number, a flag, an item of an enumeration by name, or one per entry."""
@@ -56,16 +61,10 @@ class BuildOptions:
         """Check the choices."""
         if not 2 <= self.legs <= MAX_LEGS:
             raise BuildError(f"legs = {self.legs} is not in 2 ... {MAX_LEGS}")
-        for name, value, allowed in (
-            ("naming", self.naming, NAMINGS),
-            ("preset", self.preset, PRESETS),
-            ("enumerations", self.enumerations, ENUMERATIONS_AS),
-            *(("platform", p, tuple(PLATFORMS)) for p in self.platforms),
-        ):
-            if value not in allowed:
-                raise BuildError(f"{name} '{value}' is not one of {', '.join(allowed)}")
-        if self.fmi not in FMI_VERSIONS:
-            raise BuildError(f"fmi = {self.fmi} is not one of 2, 3")
+        if self.preset not in PRESETS:
+            raise BuildError(f"preset '{self.preset}' is not one of {', '.join(PRESETS)}")
+        check_platforms(self.platforms)
+        check_choices(self.naming, self.fmi, self.enumerations)
         chosen: dict[str, Setting] = {}
         if self.memory:
             chosen = {"stored": True, "phi_stored": tuple(self.memory)}
@@ -107,11 +106,15 @@ class BuildOptions:
 
 def in_words(name: str, value: Setting) -> str:
     """A value of a parameter as a person reads it: items by name, true and false in lower case."""
-    enumeration = row(name).enumeration
+    return value_in_words(row(name), value)
+
+
+def value_in_words(v: Variable, value: Setting) -> str:
+    """As ``in_words``, of a row of any table."""
     if isinstance(value, Sequence):
         return " ".join(f"{x:.6g}" for x in value)
-    if enumeration:
-        return enumeration.items(int(value)).name
+    if v.enumeration:
+        return v.enumeration.items(int(value)).name
     return str(value).lower() if isinstance(value, bool) else f"{value:.6g}"
 
 

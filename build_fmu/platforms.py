@@ -6,7 +6,7 @@ import os
 import platform
 import struct
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -51,6 +51,17 @@ PLATFORMS: Final[dict[str, Platform]] = {
 }
 
 
+def check_platforms(names: Iterable[str]) -> None:
+    """Refuse names that no platform has.
+
+    Raises:
+        BuildError: an unknown platform.
+    """
+    for name in names:
+        if name not in PLATFORMS:
+            raise BuildError(f"platform '{name}' is not one of {', '.join(PLATFORMS)}")
+
+
 def host_platform() -> str:
     """Folder name of the platform this Python runs on.
 
@@ -71,28 +82,29 @@ def host_platform() -> str:
     return names[sys.platform]
 
 
-def place(platform: Platform, fmi: int) -> str:
+def place(platform: Platform, fmi: int, model: str = MODEL) -> str:
     """Path in the FMU of the library of a platform."""
-    return f"binaries/{platform.folder_for(fmi)}/{MODEL}{platform.suffix}"
+    return f"binaries/{platform.folder_for(fmi)}/{model}{platform.suffix}"
 
 
-def placed(libraries: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
+def placed(libraries: Mapping[str, bytes], fmi: int, model: str = MODEL) -> dict[str, bytes]:
     """Libraries by their path in the FMU.
 
     Args:
         libraries: library by name of its platform.
         fmi: version of the standard, 2 or 3.
+        model: name of the model.
 
     Importers of FMI 2.0 open ``darwin64`` and ``linux64`` on ARM machines too. So ``darwin64``
     holds both processors in one file, and an FMU for ARM Linux alone fills ``linux64`` as well.
     """
-    files = {place(PLATFORMS[name], fmi): library for name, library in libraries.items()}
+    files = {place(PLATFORMS[name], fmi, model): library for name, library in libraries.items()}
     if fmi == 2:
         if {"darwin64", "aarch64-darwin"} <= set(libraries):
             both = (libraries["darwin64"], libraries["aarch64-darwin"])
-            files[place(PLATFORMS["darwin64"], fmi)] = universal(both)
+            files[place(PLATFORMS["darwin64"], fmi, model)] = universal(both)
         for name, library in libraries.items():
-            files.setdefault(place(PLATFORMS[PLATFORMS[name].opened], fmi), library)
+            files.setdefault(place(PLATFORMS[PLATFORMS[name].opened], fmi, model), library)
     return files
 
 
@@ -113,12 +125,13 @@ def universal(slices: tuple[bytes, ...]) -> bytes:
     return header + bytes(page - len(header)) + body
 
 
-def library_of(folder: Path, fmi: int = 2) -> Path:
+def library_of(folder: Path, fmi: int = 2, model: str = MODEL) -> Path:
     """The library in an unpacked FMU that this machine can load.
 
     Args:
         folder: where the FMU was unpacked.
         fmi: version of the standard, 2 or 3.
+        model: name of the model.
 
     FMPy takes the path as ``libraryPath``; by itself it opens ``linux64`` on ARM too.
 
@@ -127,7 +140,7 @@ def library_of(folder: Path, fmi: int = 2) -> Path:
     """
     host = PLATFORMS[host_platform()]
     for name in (host.folder_for(fmi), *([host.opened] if fmi == 2 else [])):
-        path = folder / "binaries" / name / (MODEL + host.suffix)
+        path = folder / "binaries" / name / (model + host.suffix)
         if path.is_file():
             return path
     found = sorted(p.name for p in (folder / "binaries").glob("*") if p.is_dir())

@@ -1,0 +1,142 @@
+"""A model as its FMU shows it: what description and documentation are made from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+from apnc_core.enumerations import Enumeration
+from apnc_core.schema import (
+    VR_STRIDE,
+    Causality,
+    Scalar,
+    Shape,
+    Type,
+    Value,
+    Variable,
+    scalars_of,
+)
+from build_fmu.platforms import BuildError
+
+FMI_VERSIONS: Final = (2, 3)
+NAMINGS: Final = ("structured", "flat")
+ENUMERATIONS_AS: Final = ("enumeration", "integer")
+
+
+class RealType(NamedTuple):
+    """A declared type of real numbers.
+
+    Args:
+        name: its name.
+        description: what its numbers are.
+        quantity: physical quantity; empty if there is none.
+    """
+
+    name: str
+    description: str
+    quantity: str
+
+
+@dataclass(frozen=True)
+class Model:
+    """A model.
+
+    Args:
+        identifier: its name, and that of the libraries.
+        about: what it is, in one line.
+        table: its variables.
+        numbers: number of each row by name, from which value references follow.
+        legs: names of the legs.
+        starts: start values, one per entry, of rows that do not start as the table says.
+        enumerations: enumeration types of the rows.
+        types: type of real numbers by unit.
+        log_categories: what each says.
+        step: communication step of the default experiment [s].
+        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``), for FMI 2.0.
+        fmi: version of the standard, 2 or 3.
+        enumerations_as: ``enumeration``, or ``integer`` for importers that drop enumerations.
+
+    Raises:
+        BuildError: naming, version or form of enumerations outside what is allowed.
+    """
+
+    identifier: str
+    about: str
+    table: tuple[Variable, ...]
+    numbers: Mapping[str, int]
+    legs: tuple[str, ...]
+    starts: Mapping[str, tuple[Value, ...]]
+    enumerations: tuple[Enumeration, ...]
+    types: Mapping[str, RealType]
+    log_categories: Mapping[str, str]
+    step: float
+    naming: str = "structured"
+    fmi: int = 2
+    enumerations_as: str = "enumeration"
+
+    def __post_init__(self) -> None:
+        """Check the choices."""
+        check_choices(self.naming, self.fmi, self.enumerations_as)
+
+    def scalars(self) -> list[Scalar]:
+        """All scalar variables, in the order of the table."""
+        return list(scalars_of(self.table, self.numbers, len(self.legs), self.naming))
+
+    def rows(self, causality: Causality) -> tuple[Variable, ...]:
+        """The rows of one causality, in the order of the table."""
+        return tuple(v for v in self.table if v.causality is causality)
+
+    def row(self, name: str) -> Variable:
+        """The row of a name."""
+        return next(v for v in self.table if v.name == name)
+
+    def reference(self, v: Variable) -> int:
+        """Value reference of the first entry of a row."""
+        return VR_STRIDE * self.numbers[v.name]
+
+    def count(self, v: Variable) -> int:
+        """Entries of a row."""
+        return v.count(len(self.legs))
+
+    def start(self, v: Variable) -> tuple[Value, ...]:
+        """Start values of a row, one per entry; empty for an output."""
+        if v.name in self.starts:
+            return self.starts[v.name]
+        return () if v.start is None else (v.start,) * self.count(v)
+
+    def type_of(self, v: Variable) -> Type:
+        """FMI type of a row: an enumeration becomes an integer where the build says so."""
+        if v.enumeration and self.enumerations_as == "integer":
+            return Type.integer
+        return v.type
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Units of the rows, in the order of the types."""
+        used = {v.unit for v in self.table}
+        return tuple(unit for unit in self.types if unit in used)
+
+    def describe(self, v: Variable, element: int) -> str:
+        """Description of one entry of a row, with the leg or the legs it belongs to."""
+        if v.shape is Shape.leg:
+            return f"{self.legs[element]}: {v.description}"
+        if v.shape is Shape.relation:
+            return f"{self.legs[0]} and {self.legs[element + 1]}: {v.description}"
+        return v.description
+
+
+def check_choices(naming: str, fmi: int, enumerations: str) -> None:
+    """Refuse a choice that no build has.
+
+    Raises:
+        BuildError: naming, version or form of enumerations outside what is allowed.
+    """
+    for name, value, allowed in (
+        ("naming", naming, NAMINGS),
+        ("enumerations", enumerations, ENUMERATIONS_AS),
+    ):
+        if value not in allowed:
+            raise BuildError(f"{name} '{value}' is not one of {', '.join(allowed)}")
+    if fmi not in FMI_VERSIONS:
+        raise BuildError(f"fmi = {fmi} is not one of 2, 3")
