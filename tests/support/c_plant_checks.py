@@ -1,0 +1,338 @@
+"""What a plant in C must do, each a function of a loaded build: so faulty builds can be tried too.
+
+All of them compare with Pinocchio and with the laws in plain numpy, see ``rigid_body``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+from c_plant import (
+    TICK,
+    CPlant,
+    Numbers,
+    changed,
+    ffi,
+    kerb,
+    obstacles,
+    plane,
+    random_fields,
+    random_robot,
+    robot_of,
+    same_bits,
+    trot,
+    waves,
+)
+from rigid_body import BASE, Expected, RigidBody
+
+EXACT: Final = 1e-12
+"""Greatest relative difference of two double computations of the same."""
+
+QUIET: Final = {"delay": 0.0, "time_constant": 0.0, "noise": 0.0, "norm": 0}
+SIGN: Final = np.array([1.0, -1.0, -1.0])
+Check = Callable[[Any], None]
+
+
+def close(found: np.ndarray, expected: np.ndarray, bound: float = EXACT) -> None:
+    """Equal but for a part of each value, and of the unit where that is less."""
+    np.testing.assert_allclose(found, expected, rtol=bound, atol=bound)
+
+
+def expected(
+    lib: Any,
+    body: RigidBody,
+    ground: Numbers,
+    q: np.ndarray,
+    v: np.ndarray,
+    *rest: Any,
+    **more: Any,
+) -> Expected:
+    return Expected(body, lib, ffi(), ground.at, q, v, *rest, **more)
+
+
+def random_motion(random: np.random.Generator, legs: int) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates high up, the trunk turned at random, and speeds."""
+    place = random.uniform([-1.0, -1.0, 9.0], [1.0, 1.0, 11.0])
+    turns = random.uniform([-3.0, -1.2, -3.0], [3.0, 1.2, 3.0])
+    q = np.concatenate([place, turns, random.uniform(-1.0, 1.0, 3 * legs)])
+    return q, random.uniform(-3.0, 3.0, q.size)
+
+
+def accelerations(lib: Any, legs: int = 3, seeds: range = range(3), **sections: Any) -> None:
+    """In the air, at any speeds: bodies, rotors, gravity and servos."""
+    for seed in seeds:
+        robot, random = random_robot(seed, legs, **sections), np.random.default_rng(seed)
+        plant, body = CPlant(legs, library=lib), RigidBody(robot.at)
+        plant.place(robot, plane())
+        q, v = random_motion(random, legs)
+        plant.put(q, v)
+        step = 2.0**-20
+        plant.advance(step, step)
+        then = q + step * v
+        acting = expected(lib, body, plane(), then, v, np.zeros(3 * legs))
+        close(plant.accelerations(), body.accelerations(then, v, acting.force))
+
+
+def grounds() -> dict[str, Numbers]:
+    """One of every kind, some of them rising."""
+    return {
+        "plane": plane(),
+        "slope": plane(0.2),
+        "kerb": kerb(0.01, 0.01, slope=-0.1),
+        "waves": waves(slope=0.1),
+        "obstacles": obstacles(3),
+    }
+
+
+def _on_ground(lib: Any, ground: Numbers, seed: int, held: bool, norm: int) -> int:
+    """One step of a robot that moves on a ground; the feet that touched it."""
+    legs, step, random = 5, 1 / 500, np.random.default_rng(seed)
+    sensor = QUIET | {"norm": norm}
+    robot = random_robot(seed, legs, sensor=sensor)
+    body = RigidBody(robot.at)
+    plant = CPlant(legs, library=lib, contacts=ground.at.contacts if ground.at.kind else 0)
+    plant.place(robot, ground, clearance=-0.02)
+    stopping = step / foot_mass_of(body, plant, ground)
+    np.testing.assert_allclose(lib.plant_foot_mass(plant.memory, 0), step / stopping, rtol=1e-10)
+    q, v = plant.get()
+    plant.conditions(held=held, held_at=0.015)
+    pose = q[:BASE].copy()
+    pose[2] += 0.015
+    q[3:] += random.uniform(-0.05, 0.05, q.size - 3)
+    v[:] = random.uniform(-0.5, 0.5, q.size)
+    before = plant.sample()["work"].ravel()
+    target = np.zeros(3 * legs)
+    plant.put(q, v)
+    plant.command(np.zeros(legs), np.zeros(legs))
+    plant.advance(step, step)
+    there = {"stopping": stopping, "held_at": pose if held else None}
+    then = q + step * v
+    acting = expected(lib, body, ground, then, v, target, **there)
+    a = body.accelerations(then, v, acting.force)
+    close(plant.accelerations(), a, 1e-10)
+    work = plant.sample()["work"].ravel() - before
+    close(work, np.abs(acting.torque * v[BASE:]) * step)
+    v = v + 0.5 * step * a
+    shown(plant, expected(lib, body, ground, then, v, target, **there), then, v, norm)
+    return int((acting.load > 0.0).sum())
+
+
+def shown(plant: CPlant, acting: Expected, q: np.ndarray, v: np.ndarray, norm: int) -> None:
+    """Every channel of a sample is what its name says."""
+    sample = plant.sample()
+    close(sample["position"], q[:3])
+    close(sample["rpy"], q[[5, 4, 3]])
+    close(sample["velocity"], v[:3], 1e-11)
+    close(sample["angle"], q[BASE:].reshape(-1, 3) * SIGN)
+    close(sample["speed"], v[BASE:].reshape(-1, 3) * SIGN, 1e-10)
+    close(sample["torque"], acting.torque.reshape(-1, 3) * SIGN, 1e-10)
+    close(sample["foot"], acting.foot)
+    close(sample["force"], acting.push, 1e-9)
+    load = np.linalg.norm(acting.push, axis=1) if norm else acting.load
+    close(sample["grf"], load, 1e-9)
+
+
+def foot_mass_of(body: RigidBody, plant: CPlant, ground: Numbers) -> float:
+    """Least apparent mass of a foot along the ground at the start [kg]."""
+    q, v = plant.get()
+    body.move(q, v)
+    slope = ground.at.slope
+    along = np.array([[math.cos(slope), 0.0, math.sin(slope)], [0.0, 1.0, 0.0]])
+    mass, least = body.mass_matrix(q), math.inf
+    for k in range(plant.legs):
+        jacobian = along @ body.foot_jacobian(k)[:3]
+        mobility = jacobian @ np.linalg.solve(mass, jacobian.T)
+        least = min(least, 1.0 / float(np.linalg.eigvalsh(mobility)[-1]))
+    return least
+
+
+def forces(lib: Any) -> None:
+    """On every ground, held and free: contact, friction, suspension, work, every channel."""
+    for ground in grounds().values():
+        touching = 0
+        for seed in range(10, 16):
+            touching += _on_ground(lib, ground, seed, held=bool(seed % 2), norm=int(seed % 3 == 0))
+        assert touching >= 8
+
+
+def motion(lib: Any) -> None:
+    """Ticks of trot with late, slow commands and a damaged leg, against Velocity Verlet here."""
+    legs, damaged, steps = 4, 2, 7
+    latency, slew, step = 0.02, 3.0, TICK / steps
+    robot = random_robot(21, legs, sensor=QUIET, servo={"latency": latency, "slew_rate": slew})
+    body, ground = RigidBody(robot.at), plane()
+    plant = CPlant(legs, library=lib, delay=latency)
+    plant.place(robot, ground, clearance=0.002, angles=(0.0, 0.1, -0.1))
+    plant.conditions(damaged=(damaged,))
+    q, v = plant.get()
+    stopping = 1.0 / foot_mass_of(body, plant, ground)
+    target, sent, coming, time = q[BASE:].copy(), q[BASE:].copy(), [], 0.0
+
+    def at(h: float) -> np.ndarray:
+        acting = expected(lib, body, ground, q, v, target, stopping=stopping * h)
+        return body.accelerations(q, v, acting.force)
+
+    a = at(0.0)
+    for tick in range(6):
+        hip, knee = trot(legs, tick)
+        wanted = np.column_stack([np.zeros(legs), -hip, -knee])
+        wanted[damaged] = 0.0
+        sent = np.clip(wanted.ravel(), sent - slew * TICK, sent + slew * TICK)
+        coming.append((tick * TICK + latency, sent))
+        end = (tick + 1) * TICK
+        for until in [*(t for t, _ in coming if t < end - 1e-12), end]:
+            count = math.ceil((until - time) / step - 1e-9)
+            h = (until - time) / count
+            for _ in range(count):
+                v = v + 0.5 * h * a
+                q = q + h * v
+                a = at(h)
+                v = v + 0.5 * h * a
+            time = until
+            if until < end:
+                target = coming.pop(0)[1]
+        plant.tick(hip, knee, step)
+        shown(plant, expected(lib, body, ground, q, v, target, stopping=stopping * h), q, v, 0)
+        q, v = plant.get()  # rounding does not add up
+
+
+def sensors(lib: Any) -> None:
+    """Delay, low-pass and what a broken sensor delivers, at ticks of several lengths."""
+    legs, delay, constant = 3, 0.04, 0.03
+    sensor = {"delay": delay, "time_constant": constant, "noise": 0.0, "norm": 1}
+    robot = random_robot(31, legs, sensor=sensor)
+    plant = CPlant(legs, library=lib, delay=delay, Ts=TICK / 2)
+    plant.place(robot, plane())
+    plant.conditions(stuck={1: 7.5})
+    times, loads, filtered = [0.0], [np.zeros(legs)], np.zeros(legs)
+    for tick in range(40):
+        duration = TICK * (1.0, 0.5, 1.3)[tick % 3]
+        plant.command(*trot(legs, tick))
+        plant.advance(duration)
+        sample = plant.sample()
+        times.append(times[-1] + duration)
+        loads.append(np.linalg.norm(sample["force"], axis=1))
+        late = [np.interp(times[-1] - delay, times, np.array(loads)[:, k]) for k in range(legs)]
+        filtered = filtered + (1.0 - math.exp(-duration / constant)) * (late - filtered)
+        read = filtered.copy()
+        read[1] = 7.5
+        close(sample["grf"], read, 1e-11)
+    assert np.array(loads).max() > 5.0
+
+
+def philox(counter: tuple[int, ...], key: tuple[int, int]) -> tuple[int, ...]:
+    """Philox 4x32-10 of Salmon et al. (2011)."""
+    (a, b, c, d), (k, m) = counter, key
+    for _ in range(10):
+        p, r = 0xD2511F53 * a, 0xCD9E8D57 * c
+        a, b, c, d = (r >> 32) ^ b ^ k, r % 2**32, (p >> 32) ^ d ^ m, p % 2**32
+        k, m = (k + 0x9E3779B9) % 2**32, (m + 0xBB67AE85) % 2**32
+    return a, b, c, d
+
+
+def uniforms(seed: int, purpose: int, index: int) -> tuple[float, float]:
+    """Two numbers in [0, 1)."""
+    words = philox((index % 2**32, index >> 32, purpose, 0), (seed % 2**32, seed >> 32))
+    low, high = words[0] | words[1] << 32, words[2] | words[3] << 32
+    return (low >> 11) / 2**53, (high >> 11) / 2**53
+
+
+def normals(seed: int, purpose: int, index: int) -> tuple[float, float]:
+    """Two numbers of the standard normal distribution, by Box and Muller."""
+    first, second = uniforms(seed, purpose, index)
+    length = math.sqrt(-2.0 * math.log(1.0 - first))
+    return length * math.cos(2 * math.pi * second), length * math.sin(2 * math.pi * second)
+
+
+def noise(lib: Any) -> None:
+    """A number of its own for every leg and reading, as large as sensor and conditions say."""
+    legs, seed = 5, 2**40 + 9
+    robot = random_robot(41, legs, sensor=QUIET | {"noise": 0.03})
+    plant = CPlant(legs, library=lib)
+    plant.place(robot, plane(), clearance=1.0, seed=seed)
+    plant.conditions(grf_noise=0.04)
+    spread = 0.05 * robot.at.weight / 2.0
+    for reading in range(6):
+        plant.advance()
+        pairs = [normals(seed, 2, 32 * reading + k) for k in range((legs + 1) // 2)]
+        drawn = np.ravel(pairs)[:legs]
+        close(plant.sample()["grf"], np.maximum(0.0, spread * drawn))
+
+
+def fall(lib: Any) -> None:
+    """Tipped by more than 60 degrees from the normal, or a corner of the trunk in the ground."""
+    legs, slope = 2, 0.1
+    robot = random_robot(51, legs)
+    for turned, fell in ((59.0, 0), (61.0, 1)):
+        for axis, lean in ((4, -slope), (5, 0.0)):
+            plant = CPlant(legs, library=lib)
+            plant.place(robot, plane(slope), clearance=2.0)
+            q, v = plant.get()
+            q[axis] = lean + math.radians(turned)
+            plant.put(q, v)
+            plant.advance(1e-6)
+            assert plant.state() == fell
+    size, center = np.array(list(robot.at.trunk_size)), np.array(list(robot.at.trunk_center))
+    for above, fell in ((1e-4, 0), (-1e-4, 1)):
+        plant = CPlant(legs, library=lib)
+        plant.place(robot, plane(), clearance=1.0)
+        q, v = plant.get()
+        q[2] = above - (center - size / 2.0)[2]
+        plant.put(q, v)
+        plant.advance(1e-9, 1e-9)
+        assert plant.state() == fell
+
+
+def lanes(lib: Any) -> None:
+    """Different robots side by side, on different grounds, are those that they are alone."""
+    legs = 5
+    for kind, level in kinds(lib):
+        found = side_by_side(lib, kind, level, legs, list(grounds().values()), ticks=12)
+        for together, alone in found:
+            assert same_bits(together, alone), f"kind {kind}, {lib.plant_level_name(level)}"
+
+
+def kinds(lib: Any) -> list[tuple[int, int]]:
+    """Kinds with several lanes and levels that this machine has."""
+    best = lib.plant_best_level()
+    levels = range(lib.PLANT_BASELINE, best + 1)
+    return [(kind, level) for kind in (lib.PLANT_LEGS, lib.PLANT_ROBOTS) for level in levels]
+
+
+def side_by_side(
+    lib: Any, kind: int, level: int, legs: int, grounds: list[Numbers], ticks: int
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Rows of every lane, and of the same robot alone; every lane begins at a tick of its own."""
+    latency, delay = 0.02, 0.03
+    contacts = max(ground.at.contacts if ground.at.kind else 0 for ground in grounds)
+    plant = CPlant(legs, library=lib, kind=kind, level=level, contacts=contacts, delay=delay)
+    alone = [CPlant(legs, library=lib, contacts=contacts, delay=delay) for _ in range(plant.lanes)]
+    rows: list[list[list[np.ndarray]]] = [[[], []] for _ in range(plant.lanes)]
+    for tick in range(ticks):
+        for lane, single in enumerate(alone):
+            if tick == 2 * (lane % 3):
+                fields = random_fields(np.random.default_rng(lane), legs)
+                fields = changed(fields, servo={"latency": latency}, sensor={"delay": delay})
+                robot, ground = robot_of(fields), grounds[lane % len(grounds)]
+                for each, at in ((plant, lane), (single, 0)):
+                    each.place(robot, ground, at, seed=lane, clearance=0.001)
+                    each.conditions(at, damaged=(lane % legs,), grf_noise=0.1, stuck={1: 2.0})
+            for each, at in ((plant, lane), (single, 0)):
+                each.command(*trot(legs, tick + lane), at)
+        plant.advance()
+        for lane, single in enumerate(alone):
+            if tick < 2 * (lane % 3):
+                continue
+            single.advance()
+            rows[lane][0].append(plant.row(lane))
+            rows[lane][1].append(single.row())
+    return [(np.array(together), np.array(single)) for together, single in rows]
+
+
+CHECKS: Final[dict[str, Check]] = {
+    check.__name__: check for check in (accelerations, forces, motion, sensors, noise, fall, lanes)
+}
+"""Every check by its name."""
