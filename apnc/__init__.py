@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from apnc.loop.experiment import Experiment
     from apnc.loop.gait import Gait, gait_of_run, read_gait, write_gait
     from apnc.loop.record import End, Record
+    from apnc.loop.many import simulate_many
     from apnc.loop.simulate import simulate
     from apnc.report.folder import write_run as write_report
     from apnc.studies.engine import run_study
@@ -33,6 +34,7 @@ _PLACES: Final = {
     "Plant": "apnc_plant.plant",
     **dict.fromkeys(("End", "Record"), "apnc.loop.record"),
     "simulate": "apnc.loop.simulate",
+    "simulate_many": "apnc.loop.many",
     "write_report": "apnc.report.folder:write_run",
     "run_study": "apnc.studies.engine",
     **dict.fromkeys(("Summary", "summarise"), "apnc.summary"),
@@ -61,6 +63,7 @@ __all__ = [
     "read_gait",
     "run_study",
     "simulate",
+    "simulate_many",
     "summarise",
     "write_gait",
     "write_report",

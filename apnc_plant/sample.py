@@ -1,7 +1,8 @@
-"""Samples of the plant in C: rows of numbers, split into channels by name."""
+"""Records of the plant in C, split into channels by name."""
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 from apnc_plant.channels import PLANT_CHANNELS, XYZ
@@ -19,22 +20,22 @@ def sample_size(n_legs: int) -> int:
     return 3 * len(XYZ) + 19 * n_legs
 
 
-def channels_of(rows: Array, n_legs: int) -> dict[str, Array]:
-    """Views of samples by channel.
+def channels_of(samples: Array, ticks: int, count: int, n_legs: int) -> dict[str, Array]:
+    """The channels of a record that C wrote, as views into it.
 
     Args:
-        rows: samples as ``plant_sample`` writes them, shape (ticks, 9 + 19 n_legs).
+        samples: the channels one after the other, each of ``ticks`` times its size, shape (any,).
+        ticks: samples there is room for.
+        count: samples that were taken.
         n_legs: number of legs.
 
     Returns:
-        Every channel of ``PLANT_CHANNELS``, ticks along the first axis.
+        Every channel of ``PLANT_CHANNELS``, samples along the first axis.
     """
     channels, start = {}, 0
     for name in _IN_C:
-        shape = _SHAPES[name](n_legs)
-        size = 1
-        for length in shape:
-            size *= length
-        channels[name] = rows[:, start : start + size].reshape(len(rows), *shape)
+        shape = (ticks, *_SHAPES[name](n_legs))
+        size = math.prod(shape)
+        channels[name] = samples[start : start + size].reshape(shape)[:count]
         start += size
     return channels

@@ -22,7 +22,7 @@ from apnc_plant.conditions import CONDITIONS
 
 if TYPE_CHECKING:
     from apnc.loop.experiment import Experiment
-    from apnc.loop.fmu_controller import FmuController
+    from apnc.loop.simulate import Shown
     from apnc_plant.ground import Surface
 
 ENDED_EARLY: Final = 1
@@ -57,7 +57,7 @@ def walk(
     reset: Annotated[Text, Option(help="Hold at the start: true, false *.")] = None,
     rate: Annotated[Number, Option(help="Update rate [Hz]; 60.0 if omitted.")] = None,
     step: Annotated[Number, Option(help="Longest integration step [s].")] = None,
-    engine: Annotated[Text, Option(help="exudyn, mujoco; exudyn if omitted.")] = None,
+    engine: Annotated[Text, Option(help="exudyn, mujoco, compiled; exudyn if omitted.")] = None,
     fmu: Annotated[Text, Option(help="This FMU instead of the built one.")] = None,
     output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),
     json_file: Annotated[File, Option("--json", help="Write the summary here as well.")] = None,
@@ -75,7 +75,7 @@ def walk(
         mcap_path = _log_path(mcap) if mcap else None
     with bar("walking") as show:
 
-        def progress(t: float, controller: FmuController) -> None:
+        def progress(t: float, controller: Shown) -> None:
             phases = " ".join(f"{angle:5.2f}" for angle in controller.phi)
             state = f"x real time  phi {phases} rad"
             show(t, experiment.duration, lambda x: f"{t:5.1f} s  {x:4.1f}{state}")

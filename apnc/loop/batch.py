@@ -5,27 +5,27 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from functools import cache
+from typing import Any
 
 import numpy as np
 
 from apnc.loop.controller_library import ControllerLibrary, controller_library
 from apnc.loop.experiment import Experiment, conditions_of
+from apnc.loop.fmu_controller import FmuError
 from apnc.loop.record import End, Record
 from apnc.loop.steps import steps_of
 from apnc_core.schema import Shape
+from apnc_core.variables import row
 from apnc_plant.chance import side_offset
 from apnc_plant.coordinates import BASE, JOINT_SIGN
-from apnc_plant.ground import ground_numbers
+from apnc_plant.ground import GroundInC
 from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import conditions_numbers, robot_numbers
 from apnc_plant.robot.model import Array
 from apnc_plant.sample import channels_of, sample_size
 from apnc_plant.start import start_coordinates
 from build_fmu.build import host_fmu
-
-_STEADY: Final = 1e-9
-"""Ticks within which the start of a step over time counts as the tick's own [1]."""
 
 
 def fmu_of(experiment: Experiment) -> str:
@@ -34,7 +34,13 @@ def fmu_of(experiment: Experiment) -> str:
     Raises:
         BuildError: it is not among those that came with the package, and cannot be built.
     """
-    return experiment.fmu or str(host_fmu(len(experiment.description.legs)))
+    return experiment.fmu or _own_fmu(len(experiment.description.legs))
+
+
+@cache
+def _own_fmu(legs: int) -> str:
+    """Path of the FMU with its defaults, looked for once: it takes milliseconds."""
+    return str(host_fmu(legs))
 
 
 class Run:
@@ -56,15 +62,15 @@ class Run:
         numbers = robot_numbers(
             robot, side_offset=side_offset(robot, experiment.seed), payload=first.payload
         )
-        surface = ground_numbers(ground, robot.contact.foot_radius)
+        surface = GroundInC(ground, robot.contact.foot_radius)
         start = start_coordinates(robot, ground, np.zeros(3), 0.0)
         start[BASE:] *= np.tile(JOINT_SIGN, n_legs)
         conditions = [conditions_numbers(c, names, robot.weight) for _, c in steps]
         parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
         starts, kept = controller.starts(parameters)
         ticks = experiment.ticks
-        self._samples = np.empty((ticks, sample_size(n_legs)))
-        self._shown = np.empty((ticks, len(controller.recorded)))
+        self._samples = np.empty(ticks * sample_size(n_legs))
+        self._shown = np.empty(ticks * len(controller.recorded))
         schedules = {name: _schedule(experiment, name) for name in ("mi", "turn", "reset")}
         fields = {
             "guid": controller.guid,
@@ -89,29 +95,37 @@ class Run:
     @property
     def phi(self) -> Array:
         """Relative phases that the controller showed at the last tick [rad], (n_legs - 1,)."""
-        first = next(
-            i for i, s in enumerate(self._controller.recorded) if s.variable.name == "phi"
-        )
-        return self._shown[max(0, self.at.count - 1), first : first + self._controller.n_legs - 1]
+        values = self._controller_channels(max(1, self.ticks))["phi"]
+        return values[-1]
 
     @property
     def ticks(self) -> int:
         """Ticks that were taken."""
         return int(self.at.count)
 
+    def _controller_channels(self, count: int) -> dict[str, Array]:
+        """The first samples of every variable of the controller, by name."""
+        channels, start, ticks = {}, 0, self.experiment.ticks
+        for name, size in self._controller.sizes.items():
+            values = self._shown[start : start + ticks * size]
+            scalar = row(name).shape is Shape.scalar
+            channels[name] = (values if scalar else values.reshape(ticks, size))[:count]
+            start += ticks * size
+        return channels
+
     def record(self, end: End | None = None) -> Record:
-        """What was recorded; arrays of it are views into one table.
+        """What was recorded.
 
         Args:
             end: how the run ended, if it was not by itself.
 
         Raises:
-            ValueError: the controller refused.
+            FmuError: the controller refused.
         """
         ffi, lib = library()
         message = ffi.string(self.at.message).decode(errors="replace")
         if end is None and self.at.end == lib.LOOP_REFUSED:
-            raise ValueError(message)
+            raise FmuError(message)
         ends = {
             lib.LOOP_COMPLETE: End.complete,
             lib.LOOP_FELL: End.fell,
@@ -124,8 +138,8 @@ class Run:
         return Record(
             legs=tuple(leg.name for leg in robot.legs),
             time=np.arange(count, dtype=np.float64) * self.experiment.Ts,
-            plant=channels_of(self._samples[:count], len(robot.legs)),
-            controller=_by_variable(self._controller, self._shown[:count]),
+            plant=channels_of(self._samples, self.experiment.ticks, count, len(robot.legs)),
+            controller=self._controller_channels(count),
             mass=self.mass,
             experiment=self.experiment,
             robot=robot,
@@ -134,18 +148,6 @@ class Run:
             fmu_wall_s=float(self.at.controller_s),
             wall_s=self.wall_s,
         )
-
-
-def _by_variable(controller: ControllerLibrary, rows: Array) -> dict[str, Array]:
-    places: dict[Any, list[int]] = {}
-    for at, scalar in enumerate(controller.recorded):
-        places.setdefault(scalar.variable, []).append(at)
-    return {
-        variable.name: rows[:, at[0]]
-        if variable.shape is Shape.scalar
-        else rows[:, at[0] : at[-1] + 1]
-        for variable, at in places.items()
-    }
 
 
 def _ticks(experiment: Experiment, name: str) -> list[tuple[int, Any]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import tempfile
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
@@ -49,6 +50,7 @@ class ControllerLibrary:
         guid: of the FMU, for C.
         functions, variables: ``loop_functions`` and ``loop_variables`` of C.
         recorded: variables in the order of a row of the record in C.
+        sizes: how many entries each variable has in it, by name, in its order.
 
     Raises:
         FmuError: no FMU, not this controller, or no binary for this machine.
@@ -105,8 +107,12 @@ class ControllerLibrary:
                 ("inputs", "reset", "reals", "integers", "booleans"), self._references, strict=True
             )
         )
-        sizes = {"n_reals": len(outputs), "n_integers": len(whole), "n_booleans": len(flags)}
-        self.variables = ffi.new("loop_variables *", {"legs": self.n_legs, **named, **sizes})
+        counts = {"n_reals": len(outputs), "n_integers": len(whole), "n_booleans": len(flags)}
+        self.sizes = Counter(m.variable.name for m in self.recorded)
+        self._references.append(ffi.new("int32_t[]", list(self.sizes.values())))
+        sizes = {"sizes": self._references[-1], "n_sizes": len(self.sizes)}
+        fields = {"legs": self.n_legs, **named, **counts, **sizes}
+        self.variables = ffi.new("loop_variables *", fields)
 
     def starts(self, parameters: Mapping[str, Setting]) -> tuple[Any, tuple[Any, ...]]:
         """Start values as ``loop_starts``, and what it points to.

@@ -5,10 +5,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any, Final, Protocol
 
 import numpy as np
 
-from apnc.loop.engines import plant_in
+from apnc.loop.batch import Batch, Run, contacts_of, lanes_of
+from apnc.loop.engines import COMPILED, plant_in
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuController
 from apnc.loop.record import End, Record
@@ -17,8 +19,21 @@ from apnc_plant.options import PlantOptions
 from apnc_plant.plant import Plant, PlantError
 from build_fmu.build import host_fmu
 
-Progress = Callable[[float, FmuController], None]
+
+
+class Shown(Protocol):
+    """What is shown of the controller while a robot walks."""
+
+    @property
+    def phi(self) -> Any:
+        """Relative phases [rad], shape (n_legs - 1,)."""
+
+
+Progress = Callable[[float, Shown], None]
 Stop = Callable[[], bool]
+
+IN_C_S: Final = 0.25
+"""Simulated time that is walked in C between two calls of ``progress`` and ``stop`` [s]."""
 
 
 def simulate(
@@ -36,8 +51,9 @@ def simulate(
     Args:
         experiment: what is run.
         plant: the robot at its start; made of the experiment in its engine if omitted.
-        progress: called after every tick with the time [s] and the controller.
-        stop: asked before every tick; True ends the run.
+        progress: called with the time [s] and what the controller shows, after every tick, or with
+            ``engine="compiled"`` every quarter of a simulated second.
+        stop: asked as often; True ends the run.
 
     Returns:
         The record. A fall, a motion that diverges or ``stop`` end it early; what was recorded
@@ -46,6 +62,8 @@ def simulate(
     Raises:
         ValueError: the FMU cannot be used, or is for another number of legs.
     """
+    if plant is None and experiment.engine == COMPILED:
+        return _run_in_c(experiment, progress, stop)
     robot = experiment.description
     path = Path(experiment.fmu) if experiment.fmu else host_fmu(len(robot.legs))
     parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
@@ -118,3 +136,19 @@ def _run(
         fmu_wall_s=controller.wall_s,
         wall_s=time.perf_counter() - begin,
     )
+
+
+def _run_in_c(experiment: Experiment, progress: Progress, stop: Stop) -> Record:
+    batch = Batch(lanes_of(experiment), contacts_of([experiment]), single=True)
+    run = Run(experiment, batch.controller)
+    ticks = max(1, round(IN_C_S * experiment.rate))
+    try:
+        batch.begin(run)
+        while not stop():
+            ended = batch.walk(ticks)
+            progress(run.ticks * experiment.Ts, run)
+            if ended:
+                return run.record()
+        return run.record(End.interrupted)
+    finally:
+        batch.close()

@@ -205,32 +205,54 @@ static const char *step_controller(loop *l, loop_lane *at, int32_t n, const doub
     return NULL;
 }
 
+/* A row into a record: variable after variable, each of which has all of its ticks together. */
+static void record_row(double *record, const loop_run *run, const double *row, int32_t size) {
+    memcpy(record + (size_t)run->count * (size_t)size, row, (size_t)size * sizeof *row);
+}
+
+static void record_controller(const loop_variables *v, const loop_run *run, const double *row) {
+    double *record = run->controller_record;
+    for (int32_t i = 0; i < v->n_sizes; i++) {
+        record_row(record, run, row, v->sizes[i]);
+        record += (size_t)run->ticks * (size_t)v->sizes[i];
+        row += v->sizes[i];
+    }
+}
+
+static void record_plant(const loop *l, int32_t lane, const loop_run *run) {
+    const int32_t legs = l->variables->legs;
+    const int32_t sizes[10] = {3,        3,        3,        3 * legs, 3 * legs,
+                               3 * legs, 3 * legs, 3 * legs, 3 * legs, legs};
+    double sample[9 + 19 * LOOP_MOST_LEGS], *record = run->plant_record;
+    const double *row = sample;
+    plant_sample(plant_in(l), lane, sample);
+    for (int i = 0; i < 10; i++) {
+        record_row(record, run, row, sizes[i]);
+        record += (size_t)run->ticks * (size_t)sizes[i];
+        row += sizes[i];
+    }
+}
+
 /* The first half of a tick of a lane: conditions, controller, record, command. */
 static const char *control(loop *l, int32_t lane) {
     loop_lane *at = &l->lane[lane];
     loop_run *run = at->run;
-    const loop_variables *v = l->variables;
-    const int32_t n = run->count, legs = v->legs;
-    const size_t width = (size_t)(legs + 3 + v->n_reals + v->n_integers + v->n_booleans);
-    double inputs[LOOP_MOST_LEGS + 2], own[32 * LOOP_MOST_LEGS];
-    double *row = run->controller_record ? run->controller_record + (size_t)n * width : own;
+    const int32_t n = run->count, legs = l->variables->legs;
+    double row[32 * LOOP_MOST_LEGS], *outputs = row + legs + 3;
     while (at->condition + 1 < run->n_conditions && run->condition_tick[at->condition + 1] <= n)
         plant_set_conditions(plant_in(l), lane, &run->condition[++at->condition]);
-    plant_loads(plant_in(l), lane, inputs);
-    inputs[legs] = value_at(&run->mi, n, &at->mi);
-    inputs[legs + 1] = value_at(&run->turn, n, &at->turn);
+    plant_loads(plant_in(l), lane, row);
+    row[legs] = value_at(&run->mi, n, &at->mi);
+    row[legs + 1] = value_at(&run->turn, n, &at->turn);
     const int32_t reset = value_at(&run->reset, n, &at->reset) != 0.0;
-    memcpy(row, inputs, (size_t)(legs + 2) * sizeof *row);
     row[legs + 2] = reset;
-    double *outputs = row + legs + 3;
     const int timed = n % LOOP_TIMED == 0;
     const double begin = timed ? now() : 0.0;
-    const char *failed = step_controller(l, at, n, inputs, reset, outputs);
+    const char *failed = step_controller(l, at, n, row, reset, outputs);
     if (timed) run->controller_s += LOOP_TIMED * (now() - begin);
     if (failed) return failed;
-    if (run->plant_record)
-        plant_sample(plant_in(l), lane,
-                     run->plant_record + (size_t)n * (size_t)plant_sample_size(legs));
+    if (run->controller_record) record_controller(l->variables, run, row);
+    if (run->plant_record) record_plant(l, lane, run);
     plant_command(plant_in(l), lane, outputs, outputs + legs);
     return NULL;
 }

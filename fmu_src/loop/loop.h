@@ -35,6 +35,8 @@ typedef struct {
     int32_t n_integers;       /* */
     const uint32_t *booleans; /* outputs to be recorded */
     int32_t n_booleans;       /* */
+    const int32_t *sizes; /* entries of each variable of the record: of the inputs, the reset, */
+    int32_t n_sizes;      /* reals, integers and booleans, one after the other */
 } loop_variables;
 
 /* Start values of the controller. */
@@ -76,8 +78,10 @@ typedef struct {
     int32_t n_conditions;              /* */
     const int32_t *condition_tick;     /* from which each holds; the first is 0 */
     const plant_conditions *condition; /* */
-    double *plant_record;              /* ticks * (9 + 19 legs), see plant_sample; NULL: none */
-    double *controller_record;         /* ticks * (inputs, reset, outputs); NULL: none */
+    double *plant_record;      /* the channels of plant_sample one after the other, each of `ticks`
+                                  times its size; NULL: none */
+    double *controller_record; /* the variables one after the other, each of `ticks` times its
+                                  size; NULL: none */
     /* written here */
     int32_t count;       /* ticks taken */
     int32_t end;         /* LOOP_... */

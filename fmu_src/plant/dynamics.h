@@ -290,22 +290,55 @@ INL void add_suspension(const robot_numbers *n, const trunk_state *s, const trun
     x6[5] += force.z;
 }
 
-/* Solve the six equations of the trunk: L D L' of a lower triangle, in place. */
-INL void solve_trunk(B A[21], B z[6]) {
-    B per_d[6];
-    for (int j = 0; j < 6; j++) {
-        per_d[j] = 1.0 / A[LOWER(j, j)];
-        for (int i = j + 1; i < 6; i++) {
-            const B l = A[LOWER(i, j)] * per_d[j];
-            for (int m = j + 1; m <= i; m++) A[LOWER(i, m)] -= l * A[LOWER(m, j)];
-        }
-        for (int i = j + 1; i < 6; i++) A[LOWER(i, j)] *= per_d[j];
+/* A symmetric matrix of three rows, as its lower triangle. */
+typedef struct {
+    B xx, xy, yy, xz, yz, zz;
+} symmetric;
+
+/* Its inverse, by cofactors: one division, and little that waits for something else. */
+INL symmetric inverse(symmetric a) {
+    const B xx = a.yy * a.zz - a.yz * a.yz, xy = a.xz * a.yz - a.xy * a.zz;
+    const B xz = a.xy * a.yz - a.xz * a.yy;
+    const B per = 1.0 / (a.xx * xx + a.xy * xy + a.xz * xz);
+    return (symmetric){per * xx,
+                       per * xy,
+                       per * (a.xx * a.zz - a.xz * a.xz),
+                       per * xz,
+                       per * (a.xy * a.xz - a.xx * a.yz),
+                       per * (a.xx * a.yy - a.xy * a.xy)};
+}
+
+INL b3 times(symmetric a, b3 x) {
+    return (b3){a.xx * x.x + a.xy * x.y + a.xz * x.z, a.xy * x.x + a.yy * x.y + a.yz * x.z,
+                a.xz * x.x + a.yz * x.y + a.zz * x.z};
+}
+
+/* Solve the six equations of the trunk in two blocks of three: the linear accelerations are
+ * eliminated, then the angular ones found. A: lower triangle; z: right side, then the solution. */
+INL void solve_trunk(const B A[21], B z[6]) {
+    const symmetric angular = {A[0], A[1], A[2], A[3], A[4], A[5]};
+    const symmetric linear = {A[LOWER(3, 3)], A[LOWER(4, 3)], A[LOWER(4, 4)],
+                              A[LOWER(5, 3)], A[LOWER(5, 4)], A[LOWER(5, 5)]};
+    const symmetric per = inverse(linear);
+    b3 Q[3], K[3]; /* columns of the lower left block, and of the inverse times it */
+    for (int j = 0; j < 3; j++) {
+        Q[j] = (b3){A[LOWER(3, j)], A[LOWER(4, j)], A[LOWER(5, j)]};
+        K[j] = times(per, Q[j]);
     }
-    for (int i = 1; i < 6; i++)
-        for (int j = 0; j < i; j++) z[i] -= A[LOWER(i, j)] * z[j];
-    for (int i = 0; i < 6; i++) z[i] *= per_d[i];
-    for (int i = 4; i >= 0; i--)
-        for (int j = i + 1; j < 6; j++) z[i] -= A[LOWER(j, i)] * z[j];
+    const b3 n = {z[0], z[1], z[2]}, f = {z[3], z[4], z[5]};
+    const symmetric left = {angular.xx - b_dot(Q[0], K[0]), angular.xy - b_dot(Q[1], K[0]),
+                            angular.yy - b_dot(Q[1], K[1]), angular.xz - b_dot(Q[2], K[0]),
+                            angular.yz - b_dot(Q[2], K[1]), angular.zz - b_dot(Q[2], K[2])};
+    const b3 rest = {n.x - b_dot(K[0], f), n.y - b_dot(K[1], f), n.z - b_dot(K[2], f)};
+    const b3 w = times(inverse(left), rest);
+    const b3 v = b_sub(times(per, f),
+                       b_add(b_add(b_scale(w.x, K[0]), b_scale(w.y, K[1])), b_scale(w.z, K[2])));
+    z[0] = w.x;
+    z[1] = w.y;
+    z[2] = w.z;
+    z[3] = v.x;
+    z[4] = v.y;
+    z[5] = v.z;
 }
 
 /* Equations of the trunk without legs: inertia, and minus what keeps it moving. */

@@ -122,13 +122,18 @@ static double *of_robot(void *plant, size_t part, size_t i, int32_t lane) {
     return (double *)((char *)plant + part) + i * (size_t)h->robots + (size_t)lane;
 }
 
-/* Number i of `count` in the struct of V at `part`, of a leg of a lane. */
-static double *of_leg(void *plant, size_t part, size_t count, size_t i, int32_t leg, int32_t lane) {
+/* The struct of `count` numbers of V at `part`, of a leg of a lane: its first number; the others
+ * stand `width` apart. */
+static double *leg_at(void *plant, size_t part, size_t count, int32_t leg, int32_t lane) {
     const plant_header *h = (const plant_header *)plant;
-    const int32_t group = h->robots == h->width ? leg : leg / h->width;
-    const int32_t at = h->robots == h->width ? lane : leg % h->width;
-    return (double *)((char *)plant + part) + ((size_t)group * count + i) * (size_t)h->width +
-           (size_t)at;
+    const int abreast = h->robots != h->width; /* its legs stand side by side */
+    const int32_t group = abreast ? leg / h->width : leg, at = abreast ? leg % h->width : lane;
+    return (double *)((char *)plant + part) + (size_t)group * count * (size_t)h->width + (size_t)at;
+}
+
+/* Number i of such a struct. */
+static double *of_leg(void *plant, size_t part, size_t count, size_t i, int32_t leg, int32_t lane) {
+    return leg_at(plant, part, count, leg, lane) + i * (size_t)((plant_header *)plant)->width;
 }
 
 #define PLACE_OF(type, field) (offsetof(type, field) / sizeof(double))
@@ -301,24 +306,33 @@ void plant_loads(const void *plant, int32_t lane, double *grf) {
 }
 
 void plant_sample(const void *plant, int32_t lane, double *sample) {
-    static const double sign[3] = {1.0, -1.0, -1.0};
     void *p = (void *)(uintptr_t)plant;
-    const int32_t legs = ((const plant_header *)plant)->legs;
+    const plant_header *h = (const plant_header *)plant;
+    const int32_t legs = h->legs;
+    const size_t width = (size_t)h->width, each = 3 * (size_t)legs;
     const double trunk[9] = {*TRUNK(p, x.x, lane),  *TRUNK(p, x.y, lane),   *TRUNK(p, x.z, lane),
                              *TRUNK(p, roll, lane), *TRUNK(p, pitch, lane), *TRUNK(p, yaw, lane),
                              *TRUNK(p, xd.x, lane), *TRUNK(p, xd.y, lane),  *TRUNK(p, xd.z, lane)};
     memcpy(sample, trunk, sizeof trunk);
     sample += 9;
-    const size_t places[6] = {PLACE_OF(leg_state, q),      PLACE_OF(leg_state, qd),
-                              PLACE_OF(leg_state, torque), PLACE_OF(leg_state, work),
-                              PLACE_OF(leg_state, foot),   PLACE_OF(leg_state, force)};
-    for (int k = 0; k < 6; k++)
-        for (int32_t leg = 0; leg < legs; leg++)
-            for (size_t j = 0; j < 3; j++)
-                *sample++ = (k < 3 ? sign[j] : 1.0) * *of_leg(p, ((plant_header *)p)->state,
-                                                              NUMBERS_OF(leg_state), places[k] + j,
-                                                              leg, lane);
-    plant_loads(plant, lane, sample);
+    /* hip and knee turn the other way in the tree: angles, speeds and torques change sign */
+    static const struct {
+        size_t place;
+        double sign;
+    } channel[6] = {{PLACE_OF(leg_state, q), -1.0},      {PLACE_OF(leg_state, qd), -1.0},
+                    {PLACE_OF(leg_state, torque), -1.0}, {PLACE_OF(leg_state, work), 1.0},
+                    {PLACE_OF(leg_state, foot), 1.0},    {PLACE_OF(leg_state, force), 1.0}};
+    for (int32_t leg = 0; leg < legs; leg++) {
+        const double *first = leg_at(p, h->state, NUMBERS_OF(leg_state), leg, lane);
+        for (size_t k = 0; k < 6; k++) {
+            const double *from = first + channel[k].place * width;
+            double *to = sample + k * each + 3 * (size_t)leg;
+            to[0] = from[0];
+            to[1] = channel[k].sign * from[width];
+            to[2] = channel[k].sign * from[2 * width];
+        }
+        sample[6 * each + (size_t)leg] = first[PLACE_OF(leg_state, reading) * width];
+    }
 }
 
 void plant_accelerations(const void *plant, int32_t lane, double *accelerations) {
