@@ -303,5 +303,10 @@ def trot(legs: int, tick: int, size: float = 1.0) -> tuple[np.ndarray, np.ndarra
 
 
 def same_bits(first: np.ndarray, second: np.ndarray) -> bool:
-    """Whether two arrays of doubles are equal to the last bit, signs of zeros included."""
-    return np.array_equal(first.view(np.int64), second.view(np.int64))
+    """Whether doubles are equal to the last bit, signs of zeros included.
+
+    What is not a number has no bits of its own: which of several it is depends on the machine.
+    """
+    none = np.isnan(first)
+    bits = [np.where(none, 0.0, values).view(np.int64) for values in (first, second)]
+    return np.array_equal(none, np.isnan(second)) and np.array_equal(*bits)

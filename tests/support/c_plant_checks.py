@@ -288,11 +288,9 @@ def fall(lib: Any) -> None:
 
 def lanes(lib: Any) -> None:
     """Different robots side by side, on different grounds, are those that they are alone."""
-    legs = 5
     for kind, level in kinds(lib):
-        found = side_by_side(lib, kind, level, legs, list(grounds().values()), ticks=12)
-        for together, alone in found:
-            assert same_bits(together, alone), f"kind {kind}, {lib.plant_level_name(level)}"
+        for lane in side_by_side(lib, kind, level, 5, list(grounds().values()), ticks=12):
+            assert lane.same, f"kind {kind}, {lib.plant_level_name(level)}"
 
 
 def kinds(lib: Any) -> list[tuple[int, int]]:
@@ -302,34 +300,76 @@ def kinds(lib: Any) -> list[tuple[int, int]]:
     return [(kind, level) for kind in (lib.PLANT_LEGS, lib.PLANT_ROBOTS) for level in levels]
 
 
+class Lane:
+    """A robot in a lane of a plant, and the same robot alone.
+
+    Attributes:
+        together, alone: samples in numbers as they are, shape (ticks, 9 + 19 legs).
+        states: of both at the end.
+    """
+
+    def __init__(self) -> None:
+        self.rows: tuple[list[np.ndarray], list[np.ndarray]] = ([], [])
+        self.states = (0, 0)
+
+    @property
+    def together(self) -> np.ndarray:
+        return np.array(self.rows[0])
+
+    @property
+    def alone(self) -> np.ndarray:
+        return np.array(self.rows[1])
+
+    @property
+    def same(self) -> bool:
+        """Whether both are equal to the last bit."""
+        return self.states[0] == self.states[1] and same_bits(self.together, self.alone)
+
+
+LATE: Final = {"servo": {"latency": 0.02}, "sensor": {"delay": 0.03}}
+"""Latency and delay, which all robots of a plant share [s]."""
+
+
+def odd_lane(lane: int, legs: int) -> Numbers:
+    """A robot like no other."""
+    return robot_of(changed(random_fields(np.random.default_rng(lane), legs), **LATE))
+
+
 def side_by_side(
-    lib: Any, kind: int, level: int, legs: int, grounds: list[Numbers], ticks: int
-) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Rows of every lane, and of the same robot alone; every lane begins at a tick of its own."""
-    latency, delay = 0.02, 0.03
+    lib: Any,
+    kind: int,
+    level: int,
+    legs: int,
+    grounds: list[Numbers],
+    ticks: int,
+    robot: Callable[[int, int], Numbers] = odd_lane,
+    size: float = 1.0,
+) -> list[Lane]:
+    """Robots side by side, each on the next ground and put there at a tick of its own."""
     contacts = max(ground.at.contacts if ground.at.kind else 0 for ground in grounds)
-    plant = CPlant(legs, library=lib, kind=kind, level=level, contacts=contacts, delay=delay)
-    alone = [CPlant(legs, library=lib, contacts=contacts, delay=delay) for _ in range(plant.lanes)]
-    rows: list[list[list[np.ndarray]]] = [[[], []] for _ in range(plant.lanes)]
+    room = {"library": lib, "contacts": contacts, "delay": 0.03}
+    plant = CPlant(legs, kind=kind, level=level, **room)
+    single = [CPlant(legs, **room) for _ in range(plant.lanes)]
+    found = [Lane() for _ in single]
     for tick in range(ticks):
-        for lane, single in enumerate(alone):
-            if tick == 2 * (lane % 3):
-                fields = random_fields(np.random.default_rng(lane), legs)
-                fields = changed(fields, servo={"latency": latency}, sensor={"delay": delay})
-                robot, ground = robot_of(fields), grounds[lane % len(grounds)]
-                for each, at in ((plant, lane), (single, 0)):
-                    each.place(robot, ground, at, seed=lane, clearance=0.001)
-                    each.conditions(at, damaged=(lane % legs,), grf_noise=0.1, stuck={1: 2.0})
-            for each, at in ((plant, lane), (single, 0)):
-                each.command(*trot(legs, tick + lane), at)
+        for lane, alone in enumerate(single):
+            both = ((plant, lane), (alone, 0))
+            begins, ground = 2 * (lane % 3), grounds[lane % len(grounds)]
+            for each, at in both:
+                if tick == begins:
+                    each.place(robot(lane, legs), ground, at, seed=lane, clearance=0.001)
+                    broken = {"damaged": (lane % legs,), "stuck": {(lane + 1) % legs: 2.0}}
+                    each.conditions(at, grf_noise=0.1, **(broken if lane % 2 else {}))
+                each.command(*trot(legs, tick + lane, size), at)
+            if tick >= begins:
+                alone.advance()
         plant.advance()
-        for lane, single in enumerate(alone):
-            if tick < 2 * (lane % 3):
-                continue
-            single.advance()
-            rows[lane][0].append(plant.row(lane))
-            rows[lane][1].append(single.row())
-    return [(np.array(together), np.array(single)) for together, single in rows]
+        for lane, alone in enumerate(single):
+            if tick >= 2 * (lane % 3):
+                found[lane].states = (plant.state(lane), alone.state())
+                found[lane].rows[0].append(plant.row(lane))
+                found[lane].rows[1].append(alone.row())
+    return found
 
 
 CHECKS: Final[dict[str, Check]] = {
