@@ -17,8 +17,8 @@ from apnc_core import __version__
 if TYPE_CHECKING:
     from apnc.loop.experiment import Experiment
     from apnc.loop.gait import Gait, gait_of_run, read_gait, write_gait
-    from apnc.loop.record import End, Record
     from apnc.loop.many import simulate_many
+    from apnc.loop.record import End, Record
     from apnc.loop.simulate import simulate
     from apnc.report.folder import write_run as write_report
     from apnc.studies.engine import run_study

@@ -17,8 +17,10 @@ def checked_seed(seed: object) -> int:
     Raises:
         ValueError: not a whole number from 0 to 2^64 - 1.
     """
-    if isinstance(seed, Integral) and not isinstance(seed, bool) and 0 <= seed <= LARGEST_SEED:
-        return int(seed)
+    if isinstance(seed, Integral) and not isinstance(seed, bool):
+        number = int(seed)
+        if 0 <= number <= LARGEST_SEED:
+            return number
     raise ValueError(f"seed is {seed!r}; allowed: a whole number from 0 to 2^64 - 1")
 
 
@@ -33,8 +35,4 @@ def side_offset(robot: RobotDescription, seed: int) -> float:
         ValueError: another seed.
     """
     _, lib = library()
-    side, amount = (
-        lib.plant_uniform(checked_seed(seed), lib.PLANT_RANDOM_BODY, index) for index in (0, 1)
-    )
-    sign = -1.0 if side < 0.5 else 1.0
-    return float(sign * robot.trunk.com_side_offset * (0.75 + 0.5 * amount))
+    return float(lib.plant_side_offset(checked_seed(seed), robot.trunk.com_side_offset))

@@ -5,21 +5,26 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import ClassVar, Final, Protocol
 
 import numpy as np
 
+from apnc_plant.chance import checked_seed, side_offset
 from apnc_plant.channels import PlantError
+from apnc_plant.compiled import foot_mass
 from apnc_plant.conditions import Conditions
 from apnc_plant.coordinates import BASE, JOINT_SIGN
-from apnc_plant.ground import Plane, Surface
+from apnc_plant.forces import RobotForces
+from apnc_plant.ground import GroundInC, Plane, Surface
+from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import Array, MassProperties, RobotDescription
 from apnc_plant.sensor.load import LoadSensor
 from apnc_plant.start import start_coordinates
 from apnc_plant.trace import Trace
-from exudyn_models.physics.apparent_mass import apparent_mass
-from exudyn_models.physics.robot_forces import RobotForces
+
+NOW: Final = 1e-9
+"""Part of a tick within which two moments are one."""
 
 
 @dataclass(frozen=True)
@@ -99,13 +104,15 @@ class LeggedPlant:
 
         Args:
             robot: the robot.
-            seed: chooses the sideways error of the centre of mass and the sensor noise.
+            seed: chooses the sideways error of the centre of mass and the sensor noise,
+                0 to 2^64 - 1.
             options: start and integration.
             ground: what it stands on; level and smooth if omitted.
             conditions: payload, damage and the like; none if omitted.
 
         Raises:
-            ValueError: conditions name a leg the robot does not have.
+            ValueError: conditions name a leg the robot does not have, another seed, or a ground
+                that the feet do not fit.
             PlantError: the engine refused the model.
         """
         self._robot, self._options = robot, options or PlantOptions()
@@ -115,30 +122,29 @@ class LeggedPlant:
         self.n_legs = len(self.legs)
         self.mass = robot.mass + self._conditions.payload
         self.time = 0.0
-        body_seed, noise_seed = np.random.SeedSequence(seed).spawn(2)
-        self._sensor = LoadSensor(
-            robot.sensor, self.legs, robot.weight, np.random.default_rng(noise_seed)
-        )
+        self._seed = checked_seed(seed)
+        self._sensor = LoadSensor(robot.sensor, self.legs, robot.weight, self._seed)
         self._reading = np.zeros(self.n_legs)
-        self._build(side_offset(robot, np.random.default_rng(body_seed)))
+        self._build()
         self.set_conditions(self._conditions)
 
-    def _build(self, side_offset: float) -> None:
+    def _build(self) -> None:
         options, robot = self._options, self._robot
-        angles = np.array([0.0, options.start_hip, options.start_knee])
-        self._start = start_coordinates(robot, self._ground, angles, options.clearance)
+        offset, payload = side_offset(robot, self._seed), self._conditions.payload
+        numbers = robot_numbers(robot, side_offset=offset, payload=payload, gravity=options.gravity)
+        ground = GroundInC(self._ground, robot.contact.foot_radius)
+        self._start = start_coordinates(numbers, ground, options)
+        self._commanded = self._start[BASE:].reshape(-1, 3).copy()
+        self._coming: deque[tuple[float, Array]] | None = None
         coordinates = self._start.copy()
         coordinates[2] += self._conditions.held_at or 0.0
+        coordinates[BASE:] *= np.tile(JOINT_SIGN, self.n_legs)
         self._forces = RobotForces(robot, self._ground, coordinates[BASE:])
-        self._commanded = coordinates[BASE:].reshape(-1, 3) * JOINT_SIGN
-        self._coming: deque[tuple[float, Array]] = deque()
-        trunk = robot.trunk.loaded(side_offset, self._conditions.payload)
+        self._forces.foot_mass = foot_mass(robot, numbers, ground, self._start)
+        trunk = robot.trunk.loaded(offset, payload)
         setup = Setup(robot, trunk, self._ground, options, coordinates, self._forces)
         self._engine = self.engine(setup)
         self._q, self._v = coordinates.copy(), np.zeros_like(coordinates)
-        self._forces.foot_mass = apparent_mass(
-            self._forces, coordinates, self._engine.mass_matrix(), self._ground.rotation()[:, :2]
-        )
         self._measure()
 
     def set_conditions(self, conditions: Conditions) -> None:
@@ -190,12 +196,15 @@ class LeggedPlant:
         if self._robot.servo.slew_rate > 0.0:
             reach = self._robot.servo.slew_rate * duration
             targets = np.clip(targets, self._commanded - reach, self._commanded + reach)
+        if self._coming is None:
+            self._coming = self._before_the_start(duration)
         self._commanded = targets
-        self._coming.append((self.time + self._robot.servo.latency, targets * JOINT_SIGN))
-        self._integrate_to(self.time + duration)
+        self._coming.append((self._robot.servo.latency, targets * JOINT_SIGN))
+        self._integrate_tick(self._coming, duration)
         self._measure()
+        self._forces.check()
         load = self._felt_load()
-        self._reading[:] = self._sensor.update(self.time, load, duration)
+        self._reading[:] = self._sensor.update(load, duration)
 
     def _checked_targets(self, theta_hip: Array, theta_knee: Array) -> Array:
         targets = np.zeros((self.n_legs, 3))
@@ -210,21 +219,39 @@ class LeggedPlant:
             return np.asarray(np.linalg.norm(self._forces.force.reshape(-1, 3), axis=1))
         return self._forces.load.copy()
 
-    def _integrate_to(self, end: float) -> None:
-        while self._coming and self._coming[0][0] < end:
-            arrival, targets = self._coming.popleft()
-            if arrival > self.time:
-                self._integrate(arrival)
-            self._forces.target[:] = targets.ravel()
-        self._integrate(end)
+    def _before_the_start(self, Ts: float) -> deque[tuple[float, Array]]:
+        """Commands under way at the start: the servos were told the start pose once a tick, so
+        every tick is cut where a command arrives, the first ones too."""
+        ages = range(math.ceil(self._robot.servo.latency / Ts * (1.0 - NOW)) - 1, 0, -1)
+        pose = self._commanded * JOINT_SIGN
+        return deque((self._robot.servo.latency - age * Ts, pose) for age in ages)
 
-    def _integrate(self, end: float) -> None:
-        duration = end - self.time
+    def _integrate_tick(self, coming: deque[tuple[float, Array]], duration: float) -> None:
+        """Integrate a tick, in which commands that are under way reach the servos.
+
+        Args:
+            coming: time from now to the arrival of each command [s], and the command.
+            duration: length of the tick [s].
+        """
+        start, done = self.time, 0.0
+        while coming and coming[0][0] < duration * (1.0 - NOW):
+            wait, targets = coming.popleft()
+            if wait > done + NOW * duration:
+                self._integrate(start + wait, wait - done)
+                done = wait
+            self._forces.target[:] = targets.ravel()
+        self._integrate(start + duration, duration - done)
+        for _ in range(len(coming)):
+            wait, targets = coming.popleft()
+            coming.append((wait - duration, targets))
+
+    def _integrate(self, end: float, duration: float) -> None:
         steps = max(1, math.ceil(duration / self._options.step - 1e-9))
         self._forces.set_step(duration / steps)
         self.time = end
         moved = self._engine.advance(end, steps, self._q, self._v)
         if not moved or not np.isfinite(self._q).all():
+            self._forces.check()
             raise PlantError(f"the motion diverged before t = {self.time:.4f} s")
 
     def _measure(self) -> None:
@@ -270,10 +297,6 @@ class LeggedPlant:
 
         The tilt is measured against the normal of the ground.
         """
-        return self._forces.fallen(self._q)
-
-
-def side_offset(robot: RobotDescription, random: np.random.Generator) -> float:
-    """Sideways error of the centre of mass [m]: side and amount by chance."""
-    side = random.choice([-1.0, 1.0])
-    return float(side * robot.trunk.com_side_offset * random.uniform(0.75, 1.25))
+        fallen = self._forces.fallen(self._q)
+        self._forces.check()
+        return fallen

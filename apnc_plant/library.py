@@ -45,7 +45,16 @@ def declarations(header: str) -> str:
 
 
 def aligned_memory(size: int) -> tuple[Any, Any]:
-    """Zeroed bytes for a plant: where they begin, at a multiple of 64, and what owns them."""
+    """Zeroed bytes for a plant: where they begin, at a multiple of 64, and what owns them.
+
+    Args:
+        size: how many; 0 is what C answers where there is no such plant.
+
+    Raises:
+        ValueError: the size is 0.
+    """
     ffi, _ = library()
+    if not size:
+        raise ValueError("the plant in C takes robots of 2 to 64 legs")
     block = ffi.new("unsigned char[]", size + 63)
     return block + -int(ffi.cast("uintptr_t", block)) % 64, block

@@ -126,16 +126,13 @@ def sensor_numbers(sensor: Sensor) -> dict[str, float | int]:
     }
 
 
-def conditions_numbers(
-    conditions: Conditions, legs: tuple[str, ...], weight: float, raised: float = 0.0
-) -> Numbers:
+def conditions_numbers(conditions: Conditions, legs: tuple[str, ...], weight: float) -> Numbers:
     """Conditions as ``plant_conditions``; the payload is the robot's.
 
     Args:
         conditions: the conditions.
         legs: names of the robot's legs.
         weight: of the robot without payload [N].
-        raised: height of the start over the one that ``held_at`` is measured from [m].
     """
     ffi, _ = library()
     delivered = {leg: value * weight / 2.0 for leg, value in conditions.stuck.items()}
@@ -146,7 +143,7 @@ def conditions_numbers(
     numbers = {
         "grf_noise": conditions.grf_noise,
         "held": held,
-        "held_at": conditions.held_at - raised if conditions.held_at is not None else 0.0,
+        "held_at": conditions.held_at or 0.0,
         "damaged": damaged,
         "stuck": stuck,
     }

@@ -6,6 +6,7 @@ import hashlib
 import importlib.resources
 import tempfile
 from collections.abc import Callable
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Final
 
@@ -40,7 +41,7 @@ def sources() -> dict[str, bytes]:
     return dict(sorted(files.items()))
 
 
-def _root() -> importlib.resources.abc.Traversable:
+def _root() -> Traversable:
     return importlib.resources.files("fmu_src")
 
 

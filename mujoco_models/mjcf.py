@@ -10,7 +10,9 @@ from xml.etree import ElementTree
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from apnc_plant.ground import Plane
+from apnc_plant.ground import GroundInC, Plane
+from apnc_plant.numbers import robot_numbers
+from apnc_plant.options import PlantOptions
 from apnc_plant.robot.links import links_of
 from apnc_plant.robot.model import GRAVITY, Leg, MassProperties, RobotDescription
 from apnc_plant.start import start_coordinates
@@ -71,7 +73,8 @@ def robot_mjcf(robot: RobotDescription, pairs: Sequence[Pair], *, servo: str = "
     if servo not in SERVOS:
         raise ValueError(f"servo '{servo}' is not one of {', '.join(SERVOS)}")
     root, body = _model(robot)
-    body.set("pos", _numbers(start_coordinates(robot, Plane(), np.zeros(3), 0.0)[:3]))
+    ground = GroundInC(Plane(), robot.contact.foot_radius)
+    body.set("pos", _numbers(start_coordinates(robot_numbers(robot), ground, PlantOptions())[:3]))
     _add(body, "freejoint", name="base")
     trunk = robot.trunk
     _inertial(body, trunk.loaded(0.0, 0.0))

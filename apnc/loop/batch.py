@@ -18,10 +18,10 @@ from apnc.loop.steps import steps_of
 from apnc_core.schema import Shape
 from apnc_core.variables import row
 from apnc_plant.chance import side_offset
-from apnc_plant.coordinates import BASE, JOINT_SIGN
 from apnc_plant.ground import GroundInC
 from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import conditions_numbers, robot_numbers
+from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import Array
 from apnc_plant.sample import channels_of, sample_size
 from apnc_plant.start import start_coordinates
@@ -63,8 +63,7 @@ class Run:
             robot, side_offset=side_offset(robot, experiment.seed), payload=first.payload
         )
         surface = GroundInC(ground, robot.contact.foot_radius)
-        start = start_coordinates(robot, ground, np.zeros(3), 0.0)
-        start[BASE:] *= np.tile(JOINT_SIGN, n_legs)
+        start = start_coordinates(numbers, surface, PlantOptions())
         conditions = [conditions_numbers(c, names, robot.weight) for _, c in steps]
         parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
         starts, kept = controller.starts(parameters)

@@ -13,7 +13,14 @@ from typing import Any, Final
 
 import fmpy
 
-from apnc.loop.fmu_controller import FmuError, Setting, check_fmu, members_by_name, names_in, unknown_parameter
+from apnc.loop.fmu_controller import (
+    FmuError,
+    Setting,
+    check_fmu,
+    members_by_name,
+    names_in,
+    unknown_parameter,
+)
 from apnc_core.schema import Causality, Type
 from apnc_core.variables import Scalar, scalars
 from apnc_plant.library import library
@@ -103,9 +110,7 @@ class ControllerLibrary:
             for group in (inputs, reset, outputs, whole, flags)
         ]
         named = dict(
-            zip(
-                ("inputs", "reset", "reals", "integers", "booleans"), self._references, strict=True
-            )
+            zip(("inputs", "reset", "reals", "integers", "booleans"), self._references, strict=True)
         )
         counts = {"n_reals": len(outputs), "n_integers": len(whole), "n_booleans": len(flags)}
         self.sizes = Counter(m.variable.name for m in self.recorded)
@@ -130,9 +135,7 @@ class ControllerLibrary:
             if len(values) != len(members):
                 raise FmuError(f"{name} takes {len(members)} values, not {len(values)}")
             kind = _KINDS.get(members[0].variable.type, "integer")
-            groups[kind] += [
-                (m.value_reference, v) for m, v in zip(members, values, strict=True)
-            ]
+            groups[kind] += [(m.value_reference, v) for m, v in zip(members, values, strict=True)]
         kept, fields = [], {}
         for kind, entries in groups.items():
             reference = ffi.new("uint32_t[]", [vr for vr, _ in entries] or 1)

@@ -7,9 +7,17 @@ import importlib.util
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
+    from apnc_plant.compiled import Plant
     from apnc_plant.legged import LeggedPlant
 
-ENGINES: Final = {"exudyn": "exudyn_models.plant", "mujoco": "mujoco_models.plant"}
+COMPILED: Final = "compiled"
+"""The robot in plain C."""
+
+ENGINES: Final = {
+    "exudyn": "exudyn_models.plant",
+    "mujoco": "mujoco_models.plant",
+    COMPILED: "apnc_plant.compiled",
+}
 """Module of the plant in each engine."""
 
 OWN_ENGINE: Final = "exudyn"
@@ -30,7 +38,7 @@ def check_engine(name: str) -> None:
         raise ValueError(f"engine '{name}' is not one of {', '.join(ENGINES)}")
 
 
-def plant_in(engine: str) -> type[LeggedPlant]:
+def plant_in(engine: str) -> type[LeggedPlant | Plant]:
     """The plant in an engine.
 
     Raises:
@@ -38,7 +46,7 @@ def plant_in(engine: str) -> type[LeggedPlant]:
     """
     if engine in EXTRAS and importlib.util.find_spec(engine) is None:
         raise ValueError(needs(engine))
-    plant: type[LeggedPlant] = importlib.import_module(ENGINES[engine]).Plant
+    plant: type[LeggedPlant | Plant] = importlib.import_module(ENGINES[engine]).Plant
     return plant
 
 

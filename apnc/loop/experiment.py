@@ -23,6 +23,7 @@ from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import Causality, Value
 from apnc_core.settings import checked
 from apnc_core.variables import row, rows
+from apnc_plant.chance import LARGEST_SEED
 from apnc_plant.conditions import CONDITIONS, Conditions, named_conditions
 from apnc_plant.ground import Plane, Surface, from_dict
 from apnc_plant.options import PlantOptions
@@ -64,7 +65,7 @@ class Experiment:
         reset: holds the controller in its start state; one value or steps.
         rate: update rate of the controller [Hz].
         step: longest integration step of the plant [s].
-        engine: what integrates the equations of motion, ``exudyn`` or ``mujoco``.
+        engine: what integrates the equations of motion, ``exudyn``, ``mujoco`` or ``compiled``.
         fmu: file of the controller; the built one if omitted.
 
     Raises:
@@ -100,8 +101,8 @@ class Experiment:
             raise ValueError(
                 f"method '{self.method}' is not one of {', '.join(Method.__members__)}"
             )
-        if not isinstance(self.seed, Integral) or self.seed < 0:
-            raise ValueError(f"seed = {self.seed} is not a whole number, 0 or more")
+        if not isinstance(self.seed, Integral) or not 0 <= self.seed <= LARGEST_SEED:
+            raise ValueError(f"seed = {self.seed} is not a whole number from 0 to 2^64 - 1")
         if not isinstance(self.ground, Surface):
             raise ValueError(f"ground = {self.ground!r} is not a ground")
         self._check_times()

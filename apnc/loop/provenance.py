@@ -8,14 +8,16 @@ from typing import Any, Final
 
 import apnc_core
 from apnc.loop.code import code_hash
+from apnc.loop.engines import EXTRAS
 from apnc.loop.experiment import Experiment
 from apnc.loop.plain import plain
 
-_LIBRARIES: Final = ("exudyn", "fmpy", "numba", "numpy")
+_LIBRARIES: Final = ("cffi", "exudyn", "fmpy", "numpy")
 
 
 def what_was_run(experiment: Experiment) -> dict[str, Any]:
     """The command that repeats it, the whole experiment, all parameters, and versions."""
+    engine = {experiment.engine} & set(EXTRAS)
     return {
         "command": experiment.command(),
         "key": experiment.key(),
@@ -25,6 +27,6 @@ def what_was_run(experiment: Experiment) -> dict[str, Any]:
             "apnc": apnc_core.__version__,
             "python": platform.python_version(),
             "code": code_hash(),
-            **{name: version(name) for name in sorted({*_LIBRARIES, experiment.engine})},
+            **{name: version(name) for name in sorted({*_LIBRARIES, *engine})},
         },
     }

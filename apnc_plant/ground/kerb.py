@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from apnc_plant.ground.surface import Numbers, Surface
+from apnc_plant.ground.in_c import Numbers
+from apnc_plant.ground.surface import Surface
 from apnc_plant.robot.model import Array
 
 
@@ -31,6 +32,7 @@ class Kerb(Surface):
     """
 
     kind: ClassVar[str] = "kerb"
+    kind_in_c: ClassVar[str] = "PLANT_KERB"
 
     at: float = 0.5
     height: float = 0.006
@@ -60,36 +62,7 @@ class Kerb(Surface):
 
     def numbers(self, radius: float) -> Numbers:
         """Begin, end and height [m]."""
-        return Numbers(np.array([self.at, self.end, self.height]), np.zeros(1, np.int64), 2)
-
-    @staticmethod
-    def touch(
-        x: float, y: float, z: float, radius: float, reals: Any, integers: Any, found: Any
-    ) -> int:
-        """The plane where it is free, and the nearest point of the kerb."""
-        begin, end, height = reals[0], reals[1], reals[2]
-        count = 0
-        if z < radius and (x < begin or x > end):
-            found[0], found[1], found[2], found[3] = 0.0, 0.0, 1.0, radius - z
-            count = 1
-        dx = x - min(max(x, begin), end)
-        dz = z - min(z, height)
-        distance = math.sqrt(dx * dx + dz * dz)
-        if distance > 0.0:
-            nx, nz = dx / distance, dz / distance
-        else:
-            up, back, on = height - z, x - begin, end - x
-            nx, nz = 0.0, 1.0
-            distance = -up
-            if back < up and back <= on:
-                nx, nz, distance = -1.0, 0.0, -back
-            elif on < up:
-                nx, nz, distance = 1.0, 0.0, -on
-        if radius > distance:
-            at = 4 * count
-            found[at], found[at + 1], found[at + 2], found[at + 3] = nx, 0.0, nz, radius - distance
-            count += 1
-        return count
+        return Numbers(np.array([self.at, self.end, self.height]), contacts=2)
 
     def _line(self, x: Any, y: Any) -> Array:
         """A line over the kerb gets its edges as points, both ends of each face."""

@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, ClassVar, Final
+from typing import ClassVar, Final
 
 import numpy as np
 
-from apnc_plant.ground.surface import Integers, Numbers, Surface
+from apnc_plant.chance import checked_seed
+from apnc_plant.ground.in_c import GroundInC, Numbers
+from apnc_plant.ground.surface import Surface
+from apnc_plant.library import library
 from apnc_plant.robot.model import Array
 
 STEP_HEIGHT: Final = 0.01265
@@ -52,6 +55,7 @@ class Ground(Surface):
     """
 
     kind: ClassVar[str] = "obstacles"
+    kind_in_c: ClassVar[str] = "PLANT_OBSTACLES"
 
     roughness: float = 0.0
     seed: int = 0
@@ -62,7 +66,7 @@ class Ground(Surface):
         """Check the values."""
         super().__post_init__()
         self._require("roughness", 0.0 <= self.roughness <= 1.0, "0 ... 1")
-        self._require("seed", self.seed >= 0, "0 or more")
+        checked_seed(self.seed)
         self._require("density", 0.0 < self.density <= 1e4, "above 0, up to 10000 per m^2")
         low, high = self.diameters
         fits = 2.0 * STEP_HEIGHT <= low <= high <= 1.0
@@ -85,51 +89,14 @@ class Ground(Surface):
     def elevation(self, x: Array, y: Array) -> Array:
         """Height of the highest obstacle, at least 0 [m]."""
         xs, ys = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-        heights = [
-            max(0.0, self.rest_height(u, v, 0.0)) for u, v in zip(xs.flat, ys.flat, strict=True)
-        ]
-        return np.array(heights).reshape(xs.shape)
+        ground = GroundInC(self, 0.0)
+        places = zip(xs.flat, ys.flat, strict=True)
+        return np.array([ground.rest_height(u, v, 0.0) for u, v in places]).reshape(xs.shape)
 
     def numbers(self, radius: float) -> Numbers:
-        """Obstacles; where each cell begins in a list of members, and that list."""
+        """Tile, cells along its edge and balls; where each cell begins in a list of balls, and that
+        list."""
         return _numbers(self, radius)
-
-    @staticmethod
-    def touch(
-        x: float, y: float, z: float, radius: float, reals: Any, integers: Any, found: Any
-    ) -> int:
-        """The plane, and every obstacle of the cell that is near enough."""
-        count = 0
-        if z < radius:
-            found[0], found[1], found[2], found[3] = 0.0, 0.0, 1.0, radius - z
-            count = 1
-        # The remainder of a tiny negative number rounds up to the divisor: hence twice.
-        column = int(x / TILE * CELLS % CELLS) % CELLS
-        row = int(y / TILE * CELLS % CELLS) % CELLS
-        cell = row * CELLS + column
-        for k in range(integers[cell], integers[cell + 1]):
-            ball = 4 * integers[CELLS * CELLS + 1 + k]
-            dx, dy = x - reals[ball], y - reals[ball + 1]
-            dx -= TILE * math.floor(dx / TILE + 0.5)
-            dy -= TILE * math.floor(dy / TILE + 0.5)
-            dz = z - reals[ball + 2]
-            distance = math.sqrt(dx * dx + dy * dy + dz * dz)
-            depth = radius + reals[ball + 3] - distance
-            if depth > 0.0:
-                at, share = 4 * count, 1.0 / distance
-                found[at], found[at + 1], found[at + 2] = share * dx, share * dy, share * dz
-                found[at + 3] = depth
-                count += 1
-        return count
-
-    def rest_height(self, x: float, y: float, radius: float) -> float:
-        """Height of a ball's centre over the plane when it just touches what is below it [m]."""
-        balls = self.obstacles()
-        offset = balls[:, :2] - (x, y)
-        offset -= TILE * np.round(offset / TILE)
-        room = (balls[:, 3] + radius) ** 2 - (offset**2).sum(axis=1)
-        tops = balls[:, 2] + np.sqrt(np.maximum(room, 0.0))
-        return float(np.max(tops[room > 0.0], initial=radius))
 
     def lines(self, x0: float, x1: float, y0: float, y1: float) -> list[Array]:
         """The plane, and of every obstacle its foot and two arcs across its top."""
@@ -156,40 +123,30 @@ def _cap(place: tuple[float, float], z: float, radius: float) -> list[Array]:
 def _obstacles(ground: Ground) -> Array:
     if ground.roughness == 0.0:
         return np.zeros((0, 4))
-    random = np.random.default_rng(ground.seed)
-    places = random.uniform(0.0, TILE, (round(ground.density * TILE**2), 2))
-    radii = random.uniform(*ground.diameters, len(places)) / 2.0
-    balls = np.column_stack([places, ground.top - radii, radii])
+    balls = _numbers(ground, 0.0).reals[2:].reshape(-1, 4)
     balls.flags.writeable = False
     return balls
 
 
 @lru_cache(maxsize=8)
 def _numbers(ground: Ground, radius: float) -> Numbers:
-    balls = ground.obstacles()
-    first, members = _cells(balls, radius)
-    most = int(np.diff(first).max())
-    return Numbers(balls.ravel(), np.concatenate([first, members]), 1 + most)
-
-
-def _cells(obstacles: Array, foot_radius: float) -> tuple[Integers, Integers]:
-    """Which obstacles a foot can touch from each cell of the tile.
-
-    Args:
-        obstacles: balls in the tile, shape (balls, 4).
-        foot_radius: radius of the foot ball [m].
-
-    Returns:
-        Where each cell begins in the list of members, shape (CELLS**2 + 1,), and that list. Cells
-        count along x first.
-    """
-    size = TILE / CELLS
-    found: list[list[int]] = [[] for _ in range(CELLS**2)]
-    for index, (x, y, z, radius) in enumerate(obstacles):
-        # A foot touches where its centre is this far from the axis and no lower than on the plane.
-        reach = math.sqrt((radius + foot_radius) ** 2 - (foot_radius - SINK_IN - z) ** 2)
-        for row in range(math.floor((y - reach) / size), math.floor((y + reach) / size) + 1):
-            for column in range(math.floor((x - reach) / size), math.floor((x + reach) / size) + 1):
-                found[row % CELLS * CELLS + column % CELLS].append(index)
-    first = np.cumsum([0] + [len(cell) for cell in found], dtype=np.int64)
-    return first, np.array([index for cell in found for index in cell], dtype=np.int64)
+    ffi, lib = library()
+    smallest, largest = ground.diameters
+    fields = {
+        "seed": ground.seed,
+        "balls": round(ground.density * TILE**2),
+        "cells": CELLS,
+        "tile": TILE,
+        "height": ground.top,
+        "smallest": smallest,
+        "largest": largest,
+        "foot_radius": radius,
+        "sink_in": SINK_IN,
+    }
+    field = ffi.new("plant_field *", fields)
+    reals = np.empty(lib.plant_field_reals(field))
+    integers = np.empty(lib.plant_field_integers(field), np.int64)
+    most = lib.plant_field_fill(
+        field, ffi.from_buffer("double[]", reals), ffi.from_buffer("int64_t[]", integers)
+    )
+    return Numbers(reals, integers, most)

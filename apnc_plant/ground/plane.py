@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
-from apnc_plant.ground.surface import Numbers, Surface
+from apnc_plant.ground.in_c import Numbers
+from apnc_plant.ground.surface import Surface
 from apnc_plant.robot.model import Array
 
 
@@ -16,6 +17,7 @@ class Plane(Surface):
     """A plane; see :class:`Surface` for its slope."""
 
     kind: ClassVar[str] = "plane"
+    kind_in_c: ClassVar[str] = "PLANT_PLANE"
 
     @property
     def top(self) -> float:
@@ -33,17 +35,7 @@ class Plane(Surface):
 
     def numbers(self, radius: float) -> Numbers:
         """None are needed."""
-        return Numbers(np.zeros(1), np.zeros(1, np.int64), contacts=1)
-
-    @staticmethod
-    def touch(
-        x: float, y: float, z: float, radius: float, reals: Any, integers: Any, found: Any
-    ) -> int:
-        """A ball touches at its lowest point."""
-        if z >= radius:
-            return 0
-        found[0], found[1], found[2], found[3] = 0.0, 0.0, 1.0, radius - z
-        return 1
+        return Numbers(contacts=1)
 
     def rest_height(self, x: float, y: float, radius: float) -> float:
         """Radius of the ball [m]."""

@@ -10,29 +10,12 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any, ClassVar, Final, get_type_hints
 
 import numpy as np
-from numpy.typing import NDArray
 
+from apnc_plant.ground.in_c import GroundInC, Numbers
 from apnc_plant.robot.model import Array
-
-Integers = NDArray[np.int64]
 
 GRID: Final = 0.1
 """Distance between the lines a ground is drawn with [m]."""
-
-
-@dataclass(frozen=True)
-class Numbers:
-    """What the touch function of a ground reads.
-
-    Args:
-        reals: numbers of any meaning, shape (any,).
-        integers: whole numbers of any meaning, shape (any,).
-        contacts: the most places at which a ball touches at a time.
-    """
-
-    reals: Array
-    integers: Integers
-    contacts: int = 4
 
 
 @dataclass(frozen=True)
@@ -40,8 +23,12 @@ class Surface(ABC):
     """A ground: how high it is and where a ball touches it, in its own frame.
 
     The frame is the world's, turned about y by ``slope``; z points out of the ground, and the plane
-    z = 0 is the ground without what is special about it. A new ground is a subclass with ``kind``,
-    :attr:`top`, :meth:`elevation`, :meth:`numbers` and :meth:`touch`, and its entry in ``GROUNDS``.
+    z = 0 is the ground without what is special about it.
+
+    A ground of one's own is a subclass with ``kind``, :attr:`top`, :meth:`elevation` and a touch
+    function: :meth:`touch` in Python, or :attr:`address` of one in C, which is much faster. With an
+    entry in ``GROUNDS`` it can be named on the command line. Grounds that the plant in C knows
+    itself have :attr:`kind_in_c` and :meth:`numbers`.
 
     Args:
         slope: angle by which the ground rises along x [rad].
@@ -51,6 +38,8 @@ class Surface(ABC):
     """
 
     kind: ClassVar[str]
+    kind_in_c: ClassVar[str] = ""
+    """Name of the kind in ``plant.h``; empty for a ground of one's own."""
 
     slope: float = 0.0
 
@@ -80,27 +69,36 @@ class Surface(ABC):
             x, y: places in the frame of the ground [m], shapes that broadcast.
         """
 
-    @abstractmethod
     def numbers(self, radius: float) -> Numbers:
-        """What :meth:`touch` reads for balls of a radius up to ``radius`` [m]."""
+        """What the touch function in C reads for balls of a radius up to ``radius`` [m]."""
+        return Numbers()
 
-    @staticmethod
-    @abstractmethod
-    def touch(
-        x: float, y: float, z: float, radius: float, reals: Any, integers: Any, found: Any
-    ) -> int:
-        """Where a ball touches the ground. Compiled by numba: plain arithmetic and ``math`` only.
+    def touch(self, x: float, y: float, z: float, radius: float) -> Sequence[Sequence[float]]:
+        """Where a ball touches a ground of one's own.
 
         Args:
             x, y, z: centre of the ball in the frame of the ground [m].
             radius: of the ball [m]; 0 for a point.
-            reals, integers: of :meth:`numbers`, flat.
-            found: normal (x, y, z), which points out of the ground, and depth [m], above 0, of
-                every place of contact, one after the other; written here.
 
         Returns:
-            Number of places. Must be 0 where z is ``radius + top`` or more.
+            Normal (x, y, z), which points out of the ground, and depth [m], above 0, of every place
+            of contact: no more places than ``numbers(radius).contacts``. Must be empty where z is
+            ``radius + top`` or more.
         """
+        raise NotImplementedError
+
+    @property
+    def address(self) -> int:
+        """Address of a C function of the type ``plant_touch`` that does what :meth:`touch` does.
+
+        It reads :meth:`numbers`. 0 for none. Pitfall: the object it comes from must stay alive.
+        """
+        return 0
+
+    @property
+    def has_own_touch(self) -> bool:
+        """Whether its class has a :meth:`touch` of its own."""
+        return type(self).touch is not Surface.touch
 
     def rotation(self) -> Array:
         """Rotation from ground to world, shape (3, 3); its last column is the normal."""
@@ -114,13 +112,7 @@ class Surface(ABC):
             place: centre of the ball in the frame of the ground [m].
             radius: of the ball [m].
         """
-        x, y, z = (float(value) for value in place)
-        return self._found(x, y, z, radius, self.numbers(radius))
-
-    def _found(self, x: float, y: float, z: float, radius: float, numbers: Numbers) -> Array:
-        found = np.full(4 * numbers.contacts, np.nan)
-        count = self.touch(x, y, z, radius, numbers.reals, numbers.integers, found)
-        return found.reshape(-1, 4)[:count]
+        return GroundInC(self, radius).touches([float(value) for value in place], radius)
 
     def rest_height(self, x: float, y: float, radius: float) -> float:
         """Height of a ball's centre over the plane when it just touches what is below it [m].
@@ -129,14 +121,7 @@ class Surface(ABC):
             x, y: place of the centre in the frame of the ground [m].
             radius: of the ball [m].
         """
-        numbers = self.numbers(radius)
-        low, high = float(self.elevation(np.array(x), np.array(y))), self.top + radius
-        while low < (middle := (low + high) / 2.0) < high:
-            if len(self._found(x, y, middle, radius, numbers)):
-                low = middle
-            else:
-                high = middle
-        return high
+        return GroundInC(self, radius).rest_height(x, y, radius)
 
     def lines(self, x0: float, x1: float, y0: float, y1: float) -> list[Array]:
         """Polylines that draw the ground between two corners.

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar, Final
+from typing import ClassVar, Final
 
 import numpy as np
 
-from apnc_plant.ground.surface import Numbers, Surface
+from apnc_plant.ground.in_c import Numbers
+from apnc_plant.ground.surface import Surface
 from apnc_plant.robot.model import Array
 
 STEEPEST: Final = 1.0
@@ -36,6 +37,7 @@ class Waves(Surface):
     """
 
     kind: ClassVar[str] = "waves"
+    kind_in_c: ClassVar[str] = "PLANT_WAVES"
 
     amplitude: float = 0.005
     wavelength: float = 0.4
@@ -75,37 +77,4 @@ class Waves(Surface):
                 f"{2.0 * TIGHTEST / (radius * self._wavenumber**2):.4g} "
                 f"at this wavelength and a ball of radius {radius} [m]"
             )
-        return Numbers(
-            np.array([self.amplitude / 2.0, self._wavenumber]), np.zeros(1, np.int64), contacts=1
-        )
-
-    @staticmethod
-    def touch(
-        x: float, y: float, z: float, radius: float, reals: Any, integers: Any, found: Any
-    ) -> int:
-        """The nearest point (u, v, h(u, v)) of the surface, by Newton's method."""
-        a, k = reals[0], reals[1]
-        u, v = x, y
-        for _ in range(20):
-            below = a * (math.sin(k * u) + math.sin(k * v)) - z
-            hu, hv = a * k * math.cos(k * u), a * k * math.cos(k * v)
-            gu, gv = u - x + below * hu, v - y + below * hv
-            huu = 1.0 + hu * hu - below * a * k * k * math.sin(k * u)
-            hvv = 1.0 + hv * hv - below * a * k * k * math.sin(k * v)
-            huv = hu * hv
-            determinant = huu * hvv - huv * huv
-            du = (hvv * gu - huv * gv) / determinant
-            dv = (huu * gv - huv * gu) / determinant
-            u -= du
-            v -= dv
-            if abs(du) + abs(dv) < 1e-9:
-                break
-        hu, hv = a * k * math.cos(k * u), a * k * math.cos(k * v)
-        length = math.sqrt(1.0 + hu * hu + hv * hv)
-        nx, ny, nz = -hu / length, -hv / length, 1.0 / length
-        h = a * (math.sin(k * u) + math.sin(k * v))
-        depth = radius - ((x - u) * nx + (y - v) * ny + (z - h) * nz)
-        if depth <= 0.0:
-            return 0
-        found[0], found[1], found[2], found[3] = nx, ny, nz, depth
-        return 1
+        return Numbers(np.array([self.amplitude / 2.0, self._wavenumber]), contacts=1)

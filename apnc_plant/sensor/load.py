@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from collections import deque
+from typing import Final
 
 import numpy as np
 
+from apnc_plant.chance import checked_seed
 from apnc_plant.conditions import Conditions
+from apnc_plant.library import aligned_memory, library
+from apnc_plant.numbers import conditions_numbers, sensor_numbers
 from apnc_plant.robot.model import Array, Sensor
+
+SHORTEST: Final = 1e-4
+"""Length of a control tick [s] down to which no load under way is lost."""
 
 
 class LoadSensor:
@@ -20,58 +26,42 @@ class LoadSensor:
     the reading never falls below zero.
     """
 
-    def __init__(
-        self, sensor: Sensor, legs: tuple[str, ...], weight: float, noise: np.random.Generator
-    ) -> None:
-        """Start with unloaded feet at time 0.
+    def __init__(self, sensor: Sensor, legs: tuple[str, ...], weight: float, seed: int = 0) -> None:
+        """Start with unloaded feet.
 
         Args:
             sensor: delay, time constant and noise.
             legs: names of the legs.
             weight: weight of the robot [N], the scale of noise and stuck values.
-            noise: source of the noise.
+            seed: of the noise, 0 to 2^64 - 1.
+
+        Raises:
+            ValueError: another seed.
         """
-        self._sensor, self._legs, self._half = sensor, legs, weight / 2.0
-        self._noise = noise
-        self._history: deque[tuple[float, Array]] = deque([(0.0, np.zeros(len(legs)))])
-        self._filtered = np.zeros(len(legs))
-        self.disturb(Conditions())
+        ffi, lib = library()
+        self._legs, self._weight = legs, weight
+        history = lib.plant_history(0.0, sensor.delay, SHORTEST)
+        self._cells, self._owner = aligned_memory(lib.plant_sensor_size(len(legs), history))
+        numbers = ffi.new("plant_sensor *", sensor_numbers(sensor))
+        lib.plant_sensor_start(self._cells, len(legs), history, numbers, weight, checked_seed(seed))
+        self._load, self._reading = np.zeros(len(legs)), np.zeros(len(legs))
+        self._load_in_c = ffi.from_buffer("double[]", self._load)
+        self._reading_in_c = ffi.from_buffer("double[]", self._reading)
 
     def disturb(self, conditions: Conditions) -> None:
         """From now on add noise, stick at a value or deliver nothing, as ``conditions`` says."""
-        self._deviation = np.hypot(self._sensor.noise, conditions.grf_noise) * self._half
-        stuck = {leg: value * self._half for leg, value in conditions.stuck.items()}
-        stuck |= dict.fromkeys(conditions.silent(self._legs), 0.0)
-        self._broken = [self._legs.index(leg) for leg in stuck]
-        self._constant = list(stuck.values())
+        _, lib = library()
+        numbers = conditions_numbers(conditions, self._legs, self._weight)
+        lib.plant_sensor_disturb(self._cells, numbers.at)
 
-    def update(self, time: float, load: Array, duration: float) -> Array:
+    def update(self, load: Array, duration: float) -> Array:
         """Take the load at the end of a control tick and return what the sensor delivers [N].
 
         Args:
-            time: end of the tick [s].
-            load: load of each foot [N], shape (n_legs,); kept, so not to be changed afterwards.
+            load: load of each foot [N], shape (n_legs,).
             duration: length of the tick [s].
         """
-        self._history.append((time, load))
-        late = self._at(time - self._sensor.delay)
-        self._filtered = self._filtered + self._share(duration) * (late - self._filtered)
-        noise = self._deviation * self._noise.standard_normal(len(load))
-        delivered: Array = np.maximum(0.0, self._filtered + noise)
-        delivered[self._broken] = self._constant
-        return delivered
-
-    def _share(self, duration: float) -> float:
-        if self._sensor.time_constant == 0.0:
-            return 1.0
-        return float(-np.expm1(-duration / self._sensor.time_constant))
-
-    def _at(self, time: float) -> Array:
-        history = self._history
-        while len(history) > 1 and history[1][0] <= time:
-            history.popleft()
-        start, before = history[0]
-        if time <= start or len(history) == 1:
-            return before
-        end, after = history[1]
-        return before + (after - before) * ((time - start) / (end - start))
+        _, lib = library()
+        self._load[:] = load
+        lib.plant_sensor_read(self._cells, duration, self._load_in_c, self._reading_in_c)
+        return self._reading.copy()

@@ -228,11 +228,10 @@ double plant_foot_mass(const void *plant, int32_t lane);
  * NULL; stopping: length of the step over foot mass [s/kg]; work: [J] per joint, grows by
  * |torque speed| dt; out: generalized forces (6 + 3 legs), then torques in tree coordinates, feet
  * and forces on them in the world frame (3 legs each), sums of the normal forces (legs), and room
- * for the places of contact of a foot (4 for each of the ground's `contacts`).
- * touches: 0: feet and ground do not touch here. */
+ * for the places of contact of a foot (4 for each of the ground's `contacts`). */
 void plant_forces(const plant_robot *robot, const plant_ground *ground, const double *q,
                   const double *v, const double *target, const double *held, double stopping,
-                  int32_t touches, double dt, double *work, double *out);
+                  double dt, double *work, double *out);
 
 /* Whether a trunk at these six coordinates has tipped by more than 60 degrees from the normal of
  * the ground, or touches it with a corner. found: room for the places of contact, as plant_touch.

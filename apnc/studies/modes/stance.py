@@ -19,9 +19,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from apnc_plant.kinematics import Kinematics
 from apnc_plant.robot import RobotDescription
-from exudyn_models.physics.forces import leg_points
-from exudyn_models.physics.robot_forces import leg_geometry
 
 Array = NDArray[np.float64]
 
@@ -85,8 +84,9 @@ def stance_of(robot: RobotDescription, side_offset: float = 0.0) -> Stance:
         robot: the robot; the masses of its legs count as hanging at their mounts.
         side_offset: sideways error of the trunk's centre of mass [m].
     """
-    points = [leg_points(leg, 0.0, 0.0, 0.0) for leg in leg_geometry(robot)]
-    hips, knees, feet = (np.array([point[n] for point in points]) for n in range(3))
+    kinematics = Kinematics(robot)
+    points = [kinematics.points(leg, 0.0, 0.0, 0.0) for leg in range(len(robot.legs))]
+    hips, knees, feet = np.stack(points, axis=1)
     arms = (feet[:, 0] - hips[:, 0]) ** 2 + (feet[:, 0] - knees[:, 0]) ** 2
     trunk = robot.trunk.loaded(side_offset, 0.0)
     com = trunk.mass * trunk.com + sum(leg.mass * np.array(leg.mount) for leg in robot.legs)

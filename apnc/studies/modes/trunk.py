@@ -6,13 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from apnc.studies.modes.stance import stance_of
+from apnc_plant.chance import side_offset
 from apnc_plant.conditions import Conditions
-from apnc_plant.legged import side_offset
+from apnc_plant.kinematics import Kinematics
 from apnc_plant.robot import RobotDescription
 from apnc_plant.sensor.load import LoadSensor
 from apnc_plant.trace import Trace
-from exudyn_models.physics.forces import leg_points
-from exudyn_models.physics.robot_forces import leg_geometry
 
 Array = NDArray[np.float64]
 
@@ -37,14 +36,14 @@ class SpringTrunk:
 
         Args:
             robot: the robot.
-            seed: chooses the sideways error of the centre of mass and the sensor noise.
+            seed: chooses the sideways error of the centre of mass and the sensor noise,
+                0 to 2^64 - 1.
             substeps: implicit Euler steps per control tick.
         """
-        body, noise = map(np.random.default_rng, np.random.SeedSequence(seed).spawn(2))
         self.legs, self.mass = tuple(leg.name for leg in robot.legs), robot.mass
-        self._stance = stance_of(robot, side_offset(robot, body))
-        self._sensor = LoadSensor(robot.sensor, self.legs, robot.weight, noise)
-        self._geometry, self._substeps, self._time = leg_geometry(robot), substeps, 0.0
+        self._stance = stance_of(robot, side_offset(robot, seed))
+        self._sensor = LoadSensor(robot.sensor, self.legs, robot.weight, seed)
+        self._kinematics, self._substeps = Kinematics(robot), substeps
         trunk = robot.trunk.body.inertia().diagonal()[[1, 0]]
         hung = sum(leg.mass * np.square(leg.mount[:2]) for leg in robot.legs)
         self._inertia = np.diag([robot.mass, *(trunk + hung)])
@@ -56,8 +55,7 @@ class SpringTrunk:
         self._v, self._reading = np.zeros(3), still
 
     def _wanted(self, hip: Array, knee: Array) -> Array:
-        legs = zip(self._geometry, hip, knee, strict=True)
-        return np.array([-leg_points(leg, 0.0, h, k)[2][2] for leg, h, k in legs])
+        return -self._kinematics.feet(np.stack([np.zeros_like(hip), hip, knee], axis=1))[:, 2]
 
     def grf(self) -> Array:
         """Load of each foot as its sensor shows it now [N], shape (n,)."""
@@ -72,8 +70,7 @@ class SpringTrunk:
         wanted = self._wanted(theta_hip, theta_knee)
         for _ in range(self._substeps):
             self._step(wanted, duration / self._substeps)
-        self._time += duration
-        self._reading[:] = self._sensor.update(self._time, self.load, duration)
+        self._reading[:] = self._sensor.update(self.load, duration)
 
     def _step(self, wanted: Array, dt: float) -> None:
         """Implicit Euler step; legs that would pull are taken off the ground, one check at most

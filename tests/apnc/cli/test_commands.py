@@ -73,7 +73,7 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["walk", "--rate", "0"], "rate = 0.0 Hz is not in 1 ... 10000 Hz"),
         (["walk", "--mi", "7"], "mi = 7.0 is not in 0 ... 1"),
         (["walk", "--mi", "fast"], "mi = 'fast' is not a value"),
-        (["walk", "--seed", "-1"], "seed = -1 is not a whole number, 0 or more"),
+        (["walk", "--seed", "-1"], "seed = -1 is not a whole number from 0 to 2^64 - 1"),
         (["walk", "--seed", "1.5"], "'--seed'"),
         (["walk", "--preset", "cow"], "preset 'cow' is not one of robot, lilibot, paper"),
         (["walk", "--set", "cow=1"], "parameter 'cow' is not one of Ts, robot_weight, F_max"),

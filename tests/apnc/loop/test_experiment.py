@@ -32,6 +32,7 @@ from apnc_core.enumerations import Method
         ({"preset": "cow"}, "preset 'cow' is not one of robot, lilibot, paper"),
         ({"seed": -1}, "seed = -1 is not a whole number"),
         ({"seed": 0.5}, "seed = 0.5 is not a whole number"),
+        ({"seed": 2**64}, "is not a whole number from 0 to 2^64 - 1"),
         ({"ground": 0.5}, "ground = 0.5 is not a ground"),
         ({"rate": 0}, "rate = 0 Hz is not in 1 ... 10000 Hz"),
         ({"rate": 1e9}, "is not in 1 ... 10000 Hz"),

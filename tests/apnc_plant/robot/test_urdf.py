@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from odd_robot import odd_robot
 
+from apnc_plant.kinematics import Kinematics
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.robot.links import links_of
 from apnc_plant.robot.urdf import robot_urdf
-from exudyn_models.physics.forces import leg_points
-from exudyn_models.physics.robot_forces import leg_geometry
 
 ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot()]
 
@@ -50,9 +49,9 @@ def test_feet_are_where_ours_are_at_any_joint_angles(robot: RobotDescription) ->
                 for joint, angle in zip(names, own, strict=True)
             }
         )
-        for leg, geometry, own in zip(robot.legs, leg_geometry(robot), angles, strict=True):
+        for leg, ours in zip(robot.legs, Kinematics(robot).feet(angles), strict=True):
             foot = model.get_transform(f"{leg.name}_foot", "trunk")[:3, 3]
-            np.testing.assert_allclose(foot, leg_points(geometry, *own)[2], atol=1e-9)
+            np.testing.assert_allclose(foot, ours, atol=1e-9)
 
 
 def test_a_servo_is_the_limits_of_its_joint(robot: RobotDescription) -> None:

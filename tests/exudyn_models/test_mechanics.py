@@ -37,17 +37,18 @@ def test_without_losses_energy_is_conserved() -> None:
         servo=replace(ROBOT.servo, damping=0.0, stall_torque=1e6, no_load_speed=1e9),
         contact=replace(ROBOT.contact, damping=0.0, friction=0.0),
     )
-    drifts = []
-    for step in (PlantOptions().step, PlantOptions().step / 2):
+    largest = []
+    for step in (PlantOptions().step, PlantOptions().step / 4):
         plant = Plant(robot, options=PlantOptions(step=step, clearance=0.01))
-        start = energy(plant, robot, GRAVITY)
+        start, drift = energy(plant, robot, GRAVITY), 0.0
         for _ in range(120):
             plant.advance(ZERO, ZERO, 0.025)
-        drifts.append(energy(plant, robot, GRAVITY) - start)
+            drift = max(drift, abs(energy(plant, robot, GRAVITY) - start))
+        largest.append(drift)
     # Falling by 1 cm puts 0.25 J into the springs. Explicit Euler gains 92 J in these three
     # seconds, and 8 J with half the step; what is left here comes from the Coriolis terms.
-    assert abs(drifts[0]) < 0.01 * 0.25
-    assert abs(drifts[1]) < 0.6 * abs(drifts[0])
+    assert largest[0] < 0.01 * 0.25
+    assert largest[1] < 0.3 * largest[0]
 
 
 def test_damping_and_friction_take_energy_out() -> None:

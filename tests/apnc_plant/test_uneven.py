@@ -2,24 +2,25 @@
 
 import numpy as np
 import pytest
+from plants import AnyPlant, Kind, in_both
 
 from apnc_plant.ground import Kerb, Surface, Waves
 from apnc_plant.robot import load_robot
-from exudyn_models.plant import Plant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
 
 
-def settled(ground: Surface) -> Plant:
-    plant = Plant(ROBOT, ground=ground)
+def settled(kind: Kind, ground: Surface) -> AnyPlant:
+    plant = kind(ROBOT, ground=ground)
     for _ in range(120):
         plant.advance(np.zeros(4), np.zeros(4), TICK)
     return plant
 
 
-def test_front_feet_stand_on_a_kerb_and_hind_feet_below_it() -> None:
-    plant = settled(Kerb(at=0.0, height=0.006))
+@in_both
+def test_front_feet_stand_on_a_kerb_and_hind_feet_below_it(kind: Kind) -> None:
+    plant = settled(kind, Kerb(at=0.0, height=0.006))
     sample = plant.sample()
     foot, force = sample["foot_position"], sample["foot_force"]
     assert force[:, 2].sum() == pytest.approx(ROBOT.weight, rel=1e-3)
@@ -30,9 +31,10 @@ def test_front_feet_stand_on_a_kerb_and_hind_feet_below_it() -> None:
     assert not plant.fell
 
 
-def test_on_waves_feet_stand_at_the_height_of_the_waves() -> None:
+@in_both
+def test_on_waves_feet_stand_at_the_height_of_the_waves(kind: Kind) -> None:
     waves = Waves(amplitude=0.005, wavelength=0.3)
-    plant = settled(waves)
+    plant = settled(kind, waves)
     sample = plant.sample()
     assert sample["foot_force"][:, 2].sum() == pytest.approx(ROBOT.weight, rel=5e-3)
     for (x, y, z), force in zip(sample["foot_position"], sample["foot_force"], strict=True):
@@ -42,8 +44,9 @@ def test_on_waves_feet_stand_at_the_height_of_the_waves() -> None:
     assert not plant.fell
 
 
-def test_a_walk_goes_over_a_kerb() -> None:
-    plant = Plant(ROBOT, ground=Kerb(at=0.14, height=0.004))
+@in_both
+def test_a_walk_goes_over_a_kerb(kind: Kind) -> None:
+    plant = kind(ROBOT, ground=Kerb(at=0.14, height=0.004))
     diagonal = np.array([1.0, -1.0, -1.0, 1.0])
     for tick in range(480):
         phase = 0.12 * tick

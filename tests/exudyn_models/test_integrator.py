@@ -10,6 +10,7 @@ import math
 import subprocess
 import sys
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -111,13 +112,14 @@ def test_free_fall_is_exact_at_the_default_step() -> None:
 
 def test_forces_are_asked_once_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
     plant = Plant(ROBOT)
-    asked, acting = [], plant._forces.acting
+    asked, evaluate = [], plant._forces._evaluate
 
-    def counted(q: np.ndarray, v: np.ndarray) -> np.ndarray:
-        asked.append(plant._forces.step)
-        return acting(q, v)
+    def counted(dt: float, out: Any) -> None:
+        if dt > 0.0:
+            asked.append(dt)
+        evaluate(dt, out)
 
-    monkeypatch.setattr(plant._forces, "acting", counted)
+    monkeypatch.setattr(plant._forces, "_evaluate", counted)
     trot(plant, 0)
     assert asked == [STEP] * 16
     trot(plant, 1, parts=2)

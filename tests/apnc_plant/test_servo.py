@@ -1,14 +1,15 @@
-"""The servo's torque limits, in the formula and in the engine."""
+"""The servo's torque limits, in the formula and in the plants."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from plants import Kind, in_both
 
+from apnc_plant.library import library
+from apnc_plant.numbers import servo_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, Servo, load_robot
-from exudyn_models.physics.forces import servo_torque
-from exudyn_models.plant import Plant
 
 SERVO = Servo(
     stiffness=20.0, damping=0.5, stall_torque=4.0, no_load_speed=5.0, reflected_inertia=1.0
@@ -31,54 +32,59 @@ SERVO = Servo(
     ],
 )
 def test_torque_speed_curve(error: float, speed: float, expected: float) -> None:
-    limits = np.array([SERVO.stiffness, SERVO.damping, SERVO.stall_torque, SERVO.no_load_speed])
-    assert servo_torque(limits, error, speed) == pytest.approx(expected)
+    ffi, lib = library()
+    servo = ffi.new("plant_servo *", servo_numbers(SERVO))
+    assert lib.plant_servo_torque(servo, error, speed) == pytest.approx(expected)
 
 
 def weightless(servo: Servo) -> RobotDescription:
     return replace(load_robot("lilibot"), servo=servo)
 
 
-def swing_knees(servo: Servo, target: float, duration: float) -> dict[str, np.ndarray]:
+def swing_knees(kind: Kind, servo: Servo, target: float, duration: float) -> dict[str, np.ndarray]:
     options = PlantOptions(gravity=0.0, clearance=1.0, step=1e-4)
-    plant = Plant(weightless(servo), options=options)
+    plant = kind(weightless(servo), options=options)
     plant.advance(np.zeros(4), np.full(4, target), duration)
     return plant.sample()
 
 
+@in_both
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_the_engine_stops_at_the_stall_torque(side: float) -> None:
+def test_a_plant_stops_at_the_stall_torque(kind: Kind, side: float) -> None:
     # A rotor this heavy is all that resists, and stays far below the no-load speed.
     servo = replace(SERVO, reflected_inertia=100.0, no_load_speed=500.0)
-    sample = swing_knees(servo, target=side * 100.0, duration=0.5)
+    sample = swing_knees(kind, servo, target=side * 100.0, duration=0.5)
     np.testing.assert_allclose(sample["joint_speed"][:, 2], side * 4.0 / 100.0 * 0.5, rtol=0.005)
 
 
+@in_both
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_the_engine_follows_the_torque_speed_curve(side: float) -> None:
+def test_a_plant_follows_the_torque_speed_curve(kind: Kind, side: float) -> None:
     # I w' = T (1 - w/w0) has the solution w = w0 (1 - exp(-T t / (I w0))).
     servo = replace(SERVO, reflected_inertia=2.0)
-    sample = swing_knees(servo, target=side * 100.0, duration=2.0)
+    sample = swing_knees(kind, servo, target=side * 100.0, duration=2.0)
     speed = 5.0 * (1.0 - np.exp(-4.0 * 2.0 / (2.0 * 5.0)))
     torque = 4.0 * (1.0 - speed / 5.0)
     np.testing.assert_allclose(sample["joint_speed"][:, 2], side * speed, rtol=0.01)
     np.testing.assert_allclose(sample["joint_torque"][:, 2], side * torque, rtol=0.02)
 
 
-def test_within_the_limits_the_engine_is_a_damped_spring() -> None:
+@in_both
+def test_within_the_limits_a_plant_is_a_damped_spring(kind: Kind) -> None:
     # I q'' = P (target - q) - D q', started at rest.
     servo = replace(SERVO, damping=4.0, reflected_inertia=10.0, no_load_speed=500.0)
     decay, frequency = 4.0 / 20.0, np.sqrt(20.0 / 10.0 - (4.0 / 20.0) ** 2)
     t = 1.0
     envelope = np.cos(frequency * t) + decay / frequency * np.sin(frequency * t)
     expected = 0.1 * (1.0 - np.exp(-decay * t) * envelope)
-    sample = swing_knees(servo, target=0.1, duration=t)
+    sample = swing_knees(kind, servo, target=0.1, duration=t)
     np.testing.assert_allclose(sample["joint_angle"][:, 2], expected, rtol=0.01)
 
 
-def test_positive_targets_swing_the_leg_forward_and_lift_the_foot() -> None:
+@in_both
+def test_positive_targets_swing_the_leg_forward_and_lift_the_foot(kind: Kind) -> None:
     options = PlantOptions(gravity=0.0, clearance=1.0)
-    plant = Plant(load_robot("lilibot"), options=options)
+    plant = kind(load_robot("lilibot"), options=options)
     before = plant.sample()["foot_position"] - plant.sample()["position"]
     for _ in range(60):
         plant.advance(np.full(4, 0.2), np.zeros(4), 1 / 60)

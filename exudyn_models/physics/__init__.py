@@ -1,1 +1,0 @@
-"""The multibody model in Exudyn: tree, servos, contact, and the plant made of them."""
