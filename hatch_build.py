@@ -1,4 +1,4 @@
-"""Build hook: the wheel carries the ready FMU, so that a walk needs no compiler.
+"""Build hook: the wheel carries the ready FMU and the robot in C: a walk needs no compiler.
 
 ``APNC_WHEEL_PLATFORMS`` names the platforms of its binaries: ``host`` (the default, fast), ``all``
 (a release), or names of ``build_fmu.platforms`` with commas between them.
@@ -24,14 +24,17 @@ WHEEL_TAGS = {
 }
 
 
-class ReadyFmus(BuildHookInterface[Any]):
-    """Builds the FMUs for 4 and 6 legs into the wheel, or into the tree of an editable install."""
+class ReadyBinaries(BuildHookInterface[Any]):
+    """Builds the FMUs for 4 and 6 legs, and the library of the robot for every platform, into the
+    wheel or into the tree of an editable install."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build and add the FMUs; set the wheel's tag to where their binaries run."""
+        """Build and add them; set the wheel's tag to where they run."""
         sys.path.insert(0, self.root)
         from build_fmu.build import READY, cached_fmu
+        from build_fmu.library import library_name, library_path
         from build_fmu.options import BuildOptions
+        from build_fmu.platforms import PLATFORMS
 
         platforms = _platforms(os.environ.get("APNC_WHEEL_PLATFORMS", "host"))
         built = []
@@ -39,6 +42,9 @@ class ReadyFmus(BuildHookInterface[Any]):
             path = cached_fmu(BuildOptions(legs=legs, platforms=platforms), self.app.display_info)
             name = path.name if path.parent == READY else f"{path.parent.name[:16]}.fmu"
             built.append((path, name))
+        for platform in platforms:
+            path = library_path(platform, self.app.display_info)
+            built.append((path, library_name(PLATFORMS[platform])))
         if version == "editable":
             _put_into_the_tree(READY, built)
             return
@@ -69,7 +75,7 @@ def _platforms(wanted: str) -> tuple[str, ...]:
 
 def _put_into_the_tree(folder: Path, built: list[tuple[Path, str]]) -> None:
     folder.mkdir(exist_ok=True)
-    for old in folder.glob("*.fmu"):
+    for old in folder.iterdir():
         if old.name not in {name for _, name in built}:
             old.unlink()
     for path, name in built:

@@ -87,7 +87,8 @@ class Run:
             "plant_record": ffi.from_buffer("double[]", self._samples),
             "controller_record": ffi.from_buffer("double[]", self._shown),
         }
-        self._kept = (fields, numbers, surface, conditions, kept, schedules)
+        self._surface = surface
+        self._kept = (fields, numbers, conditions, kept, schedules)
         self.at = ffi.new("loop_run *", fields)
         self.wall_s = 0.0
 
@@ -120,8 +121,10 @@ class Run:
 
         Raises:
             FmuError: the controller refused.
+            ValueError: the touch function of a ground of one's own raised an error.
         """
         ffi, lib = library()
+        self._surface.check()
         message = ffi.string(self.at.message).decode(errors="replace")
         if end is None and self.at.end == lib.LOOP_REFUSED:
             raise FmuError(message)

@@ -10,7 +10,7 @@ import pytest
 
 import apnc
 
-HEAVY = ("exudyn", "fmpy", "loky", "numba", "numpy", "plotly", "scipy", "typer")
+HEAVY = ("exudyn", "fmpy", "loky", "numpy", "plotly", "scipy", "typer")
 
 
 def test_import_takes_nothing_heavy() -> None:

@@ -24,7 +24,7 @@ from apnc.cli import main as command_line
 from apnc.studies.registry import STUDIES
 from apnc_plant.robot import load_robot
 
-HEAVY = {"exudyn", "apnc_plant.ground", "fmpy", "loky", "numba", "numpy", "plotly", "scipy"}
+HEAVY = {"exudyn", "apnc_plant.ground", "fmpy", "loky", "numpy", "plotly", "scipy"}
 
 
 def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
