@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import queue
 import threading
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import Final, Literal, TypeVar, overload
+from typing import Any, Final, Literal, TypeVar, overload
 
 from apnc.loop.batch import Batch, Lanes, Run, contacts_of, lanes_of
-from apnc.loop.controller_library import controller_library
 from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
@@ -23,6 +23,9 @@ _POLL_S: Final = 0.1
 
 _TICKS: Final = 2**30
 """More than any run has: lanes walk until one of them has ended."""
+
+_BROKEN: Final = -1
+"""Instead of an index: what follows is an error that no experiment has made."""
 
 
 @overload
@@ -77,6 +80,7 @@ def simulate_many(
     """
     found: list[Summary | Record | None] = [None] * len(experiments)
     done = 0
+
     def keep(index: int, record: Record) -> Summary | Record:
         return record if records else summarise(record)
 
@@ -108,58 +112,61 @@ def walk_many(
         Index of an experiment, and its result or the exception that ended it.
 
     Raises:
-        ValueError: fewer than one worker.
+        ValueError: fewer than one worker, or a controller that is not there.
     """
     if workers < 1:
         raise ValueError(f"workers = {workers} is not at least 1")
     experiments = [compiled(experiment) for experiment in experiments]
-    groups: dict[Lanes, list[int]] = {}
-    for index, experiment in enumerate(experiments):
-        groups.setdefault(lanes_of(experiment), []).append(index)
-    for lanes, indices in groups.items():
-        group = _Group(experiments, indices, lanes, each)
-        yield from group.results(min(workers, len(indices)), stop)
-        if group.stopped:
-            return
+    yield from _Work(experiments, each).results(min(workers, len(experiments)), stop)
 
 
 class _Group:
-    """Experiments that can walk side by side, shared by the threads that walk them."""
+    """Experiments that can walk side by side.
+
+    Attributes:
+        lanes: what they have in common.
+        contacts: the most places of contact of a foot with any of their grounds.
+        left: indices of those that no thread has taken.
+        threads: how many threads walk some of them.
+    """
+
+    def __init__(self, experiments: Sequence[Experiment], lanes: Lanes, those: list[int]) -> None:
+        self.lanes, self.threads = lanes, 0
+        self.contacts = contacts_of([experiments[index] for index in those])
+        # the longest first, or a thread would walk them alone at the end
+        self.left = deque(sorted(those, key=lambda index: -experiments[index].ticks))
+
+
+class _Work:
+    """What is left to walk, shared by the threads that walk it."""
 
     def __init__(
-        self,
-        experiments: Sequence[Experiment],
-        indices: Sequence[int],
-        lanes: Lanes,
-        each: Callable[[int, Record], Result],
+        self, experiments: Sequence[Experiment], each: Callable[[int, Record], object]
     ) -> None:
-        self._experiments, self._lanes, self._each = experiments, lanes, each
-        self._contacts = contacts_of([experiments[index] for index in indices])
-        self._left, self._lock = iter(indices), threading.Lock()
+        self._experiments, self._each = experiments, each
+        those: dict[Lanes, list[int]] = {}
+        for index, experiment in enumerate(experiments):
+            those.setdefault(lanes_of(experiment), []).append(index)
+        self._groups = [_Group(experiments, *group) for group in those.items()]
+        self._lock = threading.Lock()
         self._found: queue.SimpleQueue[tuple[int, object]] = queue.SimpleQueue()
-        self._batches: list[Batch] = []
-        self.stopped = False
-        self._expected = len(indices)
+        self._batches: set[Batch] = set()
 
-    def results(self, workers: int, stop: Stop) -> Iterator[tuple[int, object]]:
-        controller_library(self._lanes.fmu)  # refuses here, not in a thread
+    def results(self, workers: int, stop: Stop) -> Iterator[tuple[int, Any]]:
         threads = [threading.Thread(target=self._work, daemon=True) for _ in range(workers)]
         for thread in threads:
             thread.start()
+        missing = len(self._experiments)
         try:
-            got = 0
-            while got < self._expected:
+            while missing and not stop():
                 try:
-                    found = self._found.get(timeout=_POLL_S)
+                    index, found = self._found.get(timeout=_POLL_S)
                 except queue.Empty:
-                    if stop() or not any(thread.is_alive() for thread in threads):
-                        break
                     continue
-                got += 1
-                yield found
-                if stop():
-                    break
-            self.stopped = got < self._expected
+                if index == _BROKEN:
+                    raise found  # type: ignore[misc]  # an exception
+                missing -= 1
+                yield index, found
         finally:
             self._stop()
             for thread in threads:
@@ -167,32 +174,59 @@ class _Group:
 
     def _stop(self) -> None:
         with self._lock:
-            self._left = iter(())
+            for group in self._groups:
+                group.left.clear()
             for batch in self._batches:
                 batch.stop()
 
-    def _next(self) -> int | None:
-        with self._lock:
-            return next(self._left, None)
-
     def _work(self) -> None:
-        batch = Batch(self._lanes, self._contacts)
+        try:
+            while (group := self._join()) is not None:
+                self._walk(group)
+                group.threads -= 1
+        except BaseException as error:  # not of an experiment: all of the work ends with it
+            self._found.put((_BROKEN, error))
+
+    def _join(self) -> _Group | None:
+        """The group to walk next: one that no other thread walks, so that lanes are full."""
         with self._lock:
-            self._batches.append(batch)
+            waiting = [group for group in self._groups if group.left]
+            if not waiting:
+                return None
+            group = min(waiting, key=lambda group: (group.threads, -len(group.left)))
+            group.threads += 1
+            return group
+
+    def _walk(self, group: _Group) -> None:
+        """Walk what is left of a group, side by side; an error of one ends no other."""
+        try:
+            batch = Batch(group.lanes, group.contacts, single=len(group.left) == 1)
+        except ValueError as error:  # the controller cannot be used
+            while (index := self._next(group)) is not None:
+                self._found.put((index, error))
+            return
+        with self._lock:
+            self._batches.add(batch)
         walking: dict[Run, int] = {}
         try:
             while True:
-                while batch.free and (index := self._next()) is not None:
+                while batch.free and (index := self._next(group)) is not None:
                     self._begin(batch, index, walking)
                 if not walking:
                     return
                 ended = batch.walk(_TICKS)
                 if not ended:  # stopped
                     return
-                for run in ended:
-                    self._tell(walking.pop(run), run)
+                while ended:  # each is forgotten at once: its record takes megabytes
+                    self._tell(walking.pop(ended[-1]), ended.pop())
         finally:
+            with self._lock:
+                self._batches.remove(batch)
             batch.close()
+
+    def _next(self, group: _Group) -> int | None:
+        with self._lock:
+            return group.left.popleft() if group.left else None
 
     def _begin(self, batch: Batch, index: int, walking: dict[Run, int]) -> None:
         try:
