@@ -42,7 +42,7 @@ def _command(name: str, axes: tuple[str, ...]) -> Callable[..., None]:
     parameters = [
         option("trials", int, 20, "Seeds per cell of the grid."),
         option("duration", Number, None, "Simulated time of a trial [s]."),
-        option("workers", int | None, None, "Processes; all cores if omitted."),
+        option("workers", int | None, None, "Threads; all cores if omitted."),
         option("scheduler", Text, None, "Address of a Dask scheduler, tcp://..."),
         option("output", Path, Path(f"apnc-study-{name}"), "Folder for the results."),
         option("resume", bool, False, "Finish an interrupted study."),

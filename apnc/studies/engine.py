@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
 import apnc_core
 from apnc.loop.csv_file import write_csv
+from apnc.loop.engines import COMPILED
+from apnc.loop.many import walk_many
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.report.folder import write_together
@@ -54,7 +56,7 @@ def run_study(
         trials: seeds per cell of the grid: 0 ... trials - 1.
         methods: labels of the contenders to compare; the study's own if omitted. With ``all``,
             studies that take no methods keep their own.
-        workers: processes on this machine.
+        workers: threads on this machine, of another engine than ``compiled`` processes.
         scheduler: address of a Dask scheduler; the trials then run there.
         output: folder, made if missing; None keeps no files.
         resume: keep what the folder holds of the very same experiments; those that ended with an
@@ -66,7 +68,7 @@ def run_study(
         robot: name or file of the robot that walks; the study's own if omitted. With ``all``,
             studies that take none keep their own.
         progress: called after every trial.
-        stop: asked before every trial; True ends the study, what is finished stays.
+        stop: asked a few times a second; True ends the study, what is finished stays.
 
     Returns:
         The rows in the order of the grid, fewer if it was stopped.
@@ -84,21 +86,23 @@ def run_study(
     if path is not None and path.exists() and path.stat().st_size > 0 and not resume:
         raise ValueError(f"{path} holds trials already; --resume continues them")
     total = sum(trial.experiment.duration for trial in grid.values())
-    with pool(workers, scheduler) as executor, Store(path) as store:
+    with pool(workers, scheduler, grid.values()) as executor, Store(path) as store:
         for legs in {len(trial.experiment.description.legs) for trial in grid.values()}:
             host_fmu(legs)  # built once here, not by every worker at the same time
         left = {at: t for at, t in grid.items() if store.rows.get(at, {}).get("error") != ""}
+        missing = sum(trial.experiment.duration for trial in left.values())
 
         def tell() -> None:
-            missing = sum(trial.experiment.duration for trial in left.values())
             progress(len(grid) - len(left), len(grid), total - missing, total)
 
         tell()
-        work = partial(run_trial, series=folder / "series" if folder and series else None)
-        at_once = len(left) if scheduler else workers
-        for row in rows_of(list(left.values()), work, executor, at_once, stop):
+        walk = partial(run_trials, series=folder / "series" if folder and series else None)
+        for row in rows_of(
+            list(left.values()), walk, executor,
+            workers=workers, cluster=scheduler is not None, stop=stop,
+        ):  # fmt: skip
             store.add(row)
-            del left[place_of(row)]
+            missing -= left.pop(place_of(row)).experiment.duration
             tell()
     rows = [store.rows[at] for at in grid if at in store.rows]
     if folder is not None:
@@ -130,25 +134,62 @@ def grid_of(
     return grid
 
 
-def run_trial(trial: Trial, series: Path | None = None) -> Row:
-    """Row of a trial; one that raises becomes a row with its error.
+def run_trials(
+    trials: Sequence[Trial],
+    *,
+    workers: int = 1,
+    stop: Callable[[], bool] = lambda: False,
+    series: Path | None = None,
+) -> Iterator[Row]:
+    """Rows of trials as they finish; one that raises becomes a row with its error.
+
+    Robots in C walk first, side by side, then those of other engines one after the other.
 
     Args:
-        trial: the trial.
-        series: folder for its record, or None to keep none.
+        trials: what is run.
+        workers: threads for the robots in C.
+        stop: asked a few times a second, and before every robot of another engine.
+        series: folder for the records, or None to keep none.
     """
-    row: Row = {"study": trial.study, "key": trial.place[-1], **trial.cell}
+    side_by_side = [trial for trial in trials if trial.experiment.engine == COMPILED]
+    for index, found in walk_many(
+        [trial.experiment for trial in side_by_side],
+        lambda at, record: _row(side_by_side[at], record, series),
+        workers=workers,
+        stop=stop,
+    ):
+        yield _failed(side_by_side[index], found) if isinstance(found, Exception) else found
+    for trial in trials:
+        if trial.experiment.engine != COMPILED:
+            if stop():
+                return
+            yield run_trial(trial, series)
+
+
+def run_trial(trial: Trial, series: Path | None = None) -> Row:
+    """Row of a single trial, see :func:`run_trials`."""
     try:
-        record = simulate(trial.experiment)
-        if series is not None:
-            series.mkdir(exist_ok=True)
-            path = series / f"{'-'.join(trial.place)}.csv"
-            write_csv(record, aside := path.with_suffix(".part"))
-            aside.replace(path)
-        return row | measured(trial.study, record)
+        return _row(trial, simulate(trial.experiment), series)
     except Exception as error:
-        text = " ".join(f"{type(error).__name__}: {error}".split())
-        return row | {"version": apnc_core.__version__, "end": "error", "error": text}
+        return _failed(trial, error)
+
+
+def _row(trial: Trial, record: Record, series: Path | None) -> Row:
+    if series is not None:
+        series.mkdir(exist_ok=True)
+        path = series / f"{'-'.join(trial.place)}.csv"
+        write_csv(record, aside := path.with_suffix(".part"))
+        aside.replace(path)
+    return _begin(trial) | measured(trial.study, record)
+
+
+def _failed(trial: Trial, error: Exception) -> Row:
+    text = " ".join(f"{type(error).__name__}: {error}".split())
+    return _begin(trial) | {"version": apnc_core.__version__, "end": "error", "error": text}
+
+
+def _begin(trial: Trial) -> Row:
+    return {"study": trial.study, "key": trial.place[-1], **trial.cell}
 
 
 def measured(study: str, record: Record) -> Row:

@@ -92,10 +92,12 @@ def _asked(study: Study, grid: Sequence[Trial], rows: Sequence[Row]) -> list[tup
     if missing := [contender(method).name for method in study.methods if method not in run]:
         methods += f"; not run: {', '.join(missing)}"
     robots = sorted({trial.experiment.description.name for trial in grid})
+    engines = sorted({trial.experiment.engine for trial in grid})
     spans = sorted({trial.experiment.duration for trial in grid})
     return [
         ("where", study.entry.place or "not in the paper"),
         ("robot", ", ".join(robots)),
+        ("engine", ", ".join(engines)),
         ("duration", ", ".join(f"{span:g} s" for span in spans)),
         ("methods", methods),
         ("seeds", str(len({row["seed"] for row in rows}))),

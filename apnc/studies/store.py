@@ -1,4 +1,4 @@
-"""Rows on disk, appended as they come: no error, interrupt or kill loses a finished trial."""
+"""Rows in a file, appended as they come: no error, interrupt or kill loses a finished trial."""
 
 from __future__ import annotations
 
@@ -8,8 +8,12 @@ import os
 import time
 from collections import defaultdict
 from pathlib import Path
+from typing import Final
 
 from apnc.studies.rows import Row
+
+SYNC_S: Final = 1.0
+"""How often at most the file is put on the disk itself [s]: each time takes some ms."""
 
 
 def place_of(row: Row) -> tuple[str, str, str]:
@@ -33,7 +37,7 @@ class Store(contextlib.ExitStack):
         super().__init__()
         self.rows: dict[tuple[str, str, str], Row] = {}
         self.wall_s: defaultdict[tuple[str, str, str], float] = defaultdict(float)
-        self._since = time.perf_counter()
+        self._since = self._synced = time.perf_counter()
         self._file = None
         if path is None:
             return
@@ -42,6 +46,7 @@ class Store(contextlib.ExitStack):
         self._file.seek(0)
         *lines, torn = self._file.read().split(b"\n")
         self._file.truncate(self._file.tell() - len(torn))
+        self.callback(self._sync)
         for line in lines:
             with contextlib.suppress(ValueError, KeyError, TypeError):  # a damaged line
                 row = json.loads(line)
@@ -49,7 +54,7 @@ class Store(contextlib.ExitStack):
                 self.wall_s[at] += row.pop("wall_s", 0.0)
 
     def add(self, row: Row) -> None:
-        """Append a row; it is on disk when this returns.
+        """Append a row; the operating system has it when this returns, the disk soon after.
 
         Raises:
             OSError: it cannot be written; the file is named.
@@ -57,11 +62,18 @@ class Store(contextlib.ExitStack):
         before, self._since = self._since, time.perf_counter()
         self.rows[at := place_of(row)] = row
         self.wall_s[at] += (wall_s := self._since - before)
-        if self._file is not None:
-            try:
-                text = json.dumps(row | {"wall_s": round(wall_s, 3)}, allow_nan=False)
-                self._file.write(text.encode() + b"\n")
-                self._file.flush()
-                os.fsync(self._file.fileno())
-            except OSError as error:
-                raise OSError(error.errno, error.strerror, self._file.name) from error
+        if self._file is None:
+            return
+        try:
+            text = json.dumps(row | {"wall_s": round(wall_s, 3)}, allow_nan=False)
+            self._file.write(text.encode() + b"\n")
+            self._file.flush()
+            if self._since - self._synced >= SYNC_S:
+                self._sync()
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, self._file.name) from error
+
+    def _sync(self) -> None:
+        assert self._file is not None
+        os.fsync(self._file.fileno())
+        self._synced = self._since

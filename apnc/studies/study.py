@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Final
 
+from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.loop.steps import steps_text
@@ -80,6 +81,7 @@ class Study:
         figures: made of the rows, of which there is at least one.
         scenes: figures of single runs of a robot, run for them when the rows are there.
         table: the rows as a Markdown table.
+        engine: what the robots walk in; None: its experiments say.
     """
 
     name: str
@@ -92,6 +94,7 @@ class Study:
     figures: Callable[[Sequence[Row]], list[Figure]] = lambda rows: []
     scenes: Callable[[Robot], list[Figure]] = lambda robot: []
     table: Callable[[Sequence[Row]], str] | None = None
+    engine: str | None = COMPILED
 
     @property
     def entry(self) -> Entry:
@@ -149,7 +152,8 @@ class Study:
         experiment = self.experiment(**cell | {"method": used.method} | own)
         settings = {**used.settings_in(self.name), **experiment.settings}
         length = experiment.duration if duration is None else duration
-        experiment = replace(experiment, settings=settings, duration=length)
+        engine = self.engine or experiment.engine
+        experiment = replace(experiment, settings=settings, duration=length, engine=engine)
         mi = experiment.mi if isinstance(experiment.mi, int | float) else steps_text(experiment.mi)
         first = {"method": cell["method"], "mi": mi, "seed": cell["seed"]}
         whole = {**first, "duration": experiment.duration, **cell, **own}

@@ -1,43 +1,64 @@
-"""Where trials run: in this process, in several of this machine, or on a Dask cluster."""
+"""Where trials run: in threads of this process, in processes of this machine, on a Dask cluster."""
 
 from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
+from functools import partial
 from itertools import islice, takewhile
-from typing import Any
+from typing import Any, Final, Protocol
 
+from apnc.loop.batch import Lanes, lanes_of
+from apnc.loop.engines import COMPILED
 from apnc.studies.rows import Row
 from apnc.studies.study import Trial
 
+CHUNK: Final = 32
+"""Trials of the robot in C that a task on a cluster walks: some batches, done in a second."""
+
+Stop = Callable[[], bool]
+
+
+class Walk(Protocol):
+    """Walks trials in this process; rows as they finish, in any order."""
+
+    def __call__(self, trials: Sequence[Trial], *, workers: int, stop: Stop) -> Iterator[Row]:
+        """Rows of the trials; robots in C walk on so many threads."""
+
 
 @contextmanager
-def pool(workers: int, scheduler: str | None) -> Iterator[Executor | None]:
-    """The workers asked for, see ``run_study``; None is this process.
+def pool(
+    workers: int, scheduler: str | None, trials: Collection[Trial]
+) -> Iterator[Executor | None]:
+    """Where trials run that do not run in this process, see ``run_study``; None if all do.
 
     Raises:
-        ValueError: fewer than one process, the extra ``cluster`` is missing, or no scheduler there.
+        ValueError: fewer than one worker, an extra is missing, or no scheduler there.
     """
     if scheduler:
         with _client(scheduler) as client:
             yield client.get_executor(retries=3, pure=False)  # a lost worker's trials run elsewhere
-    elif workers < 1:
+        return
+    if workers < 1:
         raise ValueError(f"workers = {workers} is not at least 1")
-    elif workers == 1:
-        yield None
-    else:
-        try:
-            from loky import get_reusable_executor  # noqa: PLC0415  # an extra
-        except ImportError:
-            extra = "pip install 'apnc[study]', or --workers 1"
-            raise ValueError(f"workers = {workers} needs the extra 'study': {extra}") from None
-        executor = get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
-        with _interrupts_ignored():
-            executor.submit(int)  # starts the processes, which ignore Ctrl-C from then on
-        yield executor
+    others = {t.experiment.engine for t in trials} - {COMPILED}
+    yield _processes(workers, sorted(others)) if others and workers > 1 else None
+
+
+def _processes(workers: int, engines: Sequence[str]) -> Any:
+    try:
+        from loky import get_reusable_executor  # noqa: PLC0415  # an extra
+    except ImportError:
+        extra = "pip install 'apnc[study]', or --workers 1"
+        needs = f"workers = {workers} with engine {engines[0]} needs the extra 'study'"
+        raise ValueError(f"{needs}: {extra}") from None
+    executor = get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
+    with _interrupts_ignored():
+        executor.submit(int)  # starts the processes, which ignore Ctrl-C from then on
+    return executor
 
 
 def _client(address: str) -> Any:
@@ -71,23 +92,72 @@ def _leave_interrupts_to_parent() -> None:
 
 def rows_of(
     trials: Sequence[Trial],
-    work: Callable[[Trial], Row],
+    walk: Walk,
     executor: Executor | None,
-    at_once: int,
-    stop: Callable[[], bool],
+    *,
+    workers: int,
+    cluster: bool,
+    stop: Stop,
 ) -> Iterator[Row]:
-    """Rows as they finish, in any order; once ``stop()`` is true, no further trial begins."""
-    left = takewhile(lambda _: not stop(), trials)
-    if executor is None:
-        yield from map(work, left)
-        return
-    running: set[Future[Row]] = set()
+    """Rows as they finish, in any order; once ``stop()`` is true, nothing further begins.
+
+    Args:
+        trials: what is run.
+        walk: walks some of them; it goes to other processes as it is.
+        executor: of :func:`pool`.
+        workers: threads for the robots in C, then processes for the others.
+        cluster: everything goes to the executor, the robots in C in chunks.
+        stop: asked now and then.
+    """
+    here, sent = trials, list[Trial]()
+    if executor is not None:
+        here = [] if cluster else [t for t in trials if _in_c(t)]
+        sent = [t for t in trials if cluster or not _in_c(t)]
+    yield from walk(here, workers=workers, stop=stop)
+    if executor is not None and (chunks := chunks_of(sent)):
+        at_once = len(chunks) if cluster else workers
+        yield from _sent(chunks, partial(_all_of, walk), executor, at_once, stop)
+
+
+def _in_c(trial: Trial) -> bool:
+    return trial.experiment.engine == COMPILED
+
+
+def chunks_of(trials: Sequence[Trial]) -> list[list[Trial]]:
+    """Trials in groups that can walk side by side; of another engine each by itself."""
+    kinds: dict[Lanes, list[Trial]] = {}
+    for trial in filter(_in_c, trials):
+        kinds.setdefault(lanes_of(trial.experiment), []).append(trial)
+    others = [[trial] for trial in trials if not _in_c(trial)]
+    parts = (kind[at : at + CHUNK] for kind in kinds.values() for at in range(0, len(kind), CHUNK))
+    return [*parts, *others]
+
+
+def _all_of(walk: Walk, trials: Sequence[Trial]) -> list[Row]:
+    return list(walk(trials, workers=1, stop=_never))
+
+
+def _never() -> bool:
+    return False
+
+
+def _sent(
+    chunks: Sequence[Sequence[Trial]],
+    work: Callable[[Sequence[Trial]], list[Row]],
+    executor: Executor,
+    at_once: int,
+    stop: Stop,
+) -> Iterator[Row]:
+    left = takewhile(lambda _: not stop(), chunks)
+    running: set[Future[list[Row]]] = set()
     while True:
-        running |= {executor.submit(work, trial) for trial in islice(left, at_once - len(running))}
+        running |= {executor.submit(work, chunk) for chunk in islice(left, at_once - len(running))}
         if not running:
             return
         done, running = wait(running, return_when=FIRST_COMPLETED)
-        yield from (future.result() for future in done if not future.cancelled())
+        for future in done:
+            if not future.cancelled():
+                yield from future.result()
         if stop():
             for future in running:  # of those that wait on a cluster
                 future.cancel()

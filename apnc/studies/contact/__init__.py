@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from apnc.loop.engines import OWN_ENGINE
 from apnc.loop.experiment import Experiment
 from apnc.report import theme
 from apnc.report.encoding import float32
@@ -115,4 +116,5 @@ STUDY: Final = Study(
     figures=figures,
     scenes=scenes,
     table=table,
+    engine=OWN_ENGINE,
 )

@@ -42,17 +42,25 @@ def test_ctrl_c_during_the_imports_is_no_traceback(at: str, tmp_path: Path) -> N
     assert not (tmp_path / "apnc-walk" / "summary.json").exists()
 
 
-@pytest.mark.parametrize("at", [" loky", "of 4 trials"])
+IN_C = ("mi", "--methods", "apnc", "--duration", "900")
+IN_PROCESSES = ("engines", "--engine", "exudyn", "--duration", "3")
+
+
+@pytest.mark.parametrize(
+    ("study", "at"),
+    [(IN_C, "of 4 trials"), (IN_PROCESSES, " loky"), (IN_PROCESSES, "of 4 trials")],
+    ids=["threads", "processes at their start", "processes"],
+)
 def test_ctrl_c_in_a_study_also_reaches_workers_and_is_no_traceback(
-    at: str, tmp_path: Path
+    study: tuple[str, ...], at: str, tmp_path: Path
 ) -> None:
-    study = ("study", "mi", "--trials", "4", "--mi", "0.08", "--methods", "apnc", "--workers", "2")
-    python = (sys.executable, "-X", "importtime", "-m", "apnc")
-    code, shown = interrupted(*python, *study, "--duration", "3", at=at, cwd=tmp_path)
+    some = ("--trials", "4", "--mi", "0.08", "--workers", "2")
+    python = (sys.executable, "-X", "importtime", "-m", "apnc", "study", *study)
+    code, shown = interrupted(*python, *some, at=at, cwd=tmp_path)
     said = [line for line in shown.splitlines() if not line.startswith("import time:")]
     assert code == 130, said
     assert not any("Traceback" in line or "segmentation" in line for line in said)
-    store = tmp_path / "apnc-study-mi" / "trials.jsonl"
+    store = tmp_path / f"apnc-study-{study[0]}" / "trials.jsonl"
     rows = store.read_text().splitlines() if store.exists() else []
     assert len(rows) < 4
     assert all(json.loads(row)["error"] == "" for row in rows)

@@ -10,42 +10,58 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from apnc.loop.record import Record
 from apnc.studies import contenders, engine, store
 from apnc.studies.contenders import CONTENDERS
-from apnc.studies.engine import run_study, run_trial
+from apnc.studies.engine import grid_of, run_study, run_trial, run_trials
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import Row
 from apnc.studies.store import Store, place_of
 from apnc.studies.study import Study, Trial
+from apnc.studies.workers import CHUNK, chunks_of, rows_of
 from apnc_plant.robot import ROBOTS
 from build_fmu.build import host_fmu
 
 SHORT: dict[str, Any] = {"trials": 1, "duration": 1.0, "chosen": {"mi": [0.08]}}
 
 
-def quick(trial: Trial, series: Path | None = None) -> Row:
+def quick(trial: Trial) -> Row:
     """A row without a run."""
     rest = {"version": "0", "fell": False, "end": "complete", "error": ""}
     return {"study": trial.study, "key": trial.place[-1], **trial.cell, **rest}
 
 
-@pytest.fixture
-def no_runs(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Rows without runs; the keys of the trials that were asked for."""
+Made = Callable[[Trial], Row]
+
+
+def without_runs(monkeypatch: pytest.MonkeyPatch, made: Made = quick) -> list[str]:
+    """Rows are made without runs from now on; the keys of the trials that were asked for."""
     asked: list[str] = []
 
-    def work(trial: Trial, series: Path | None = None) -> Row:
-        asked.append(trial.place[-1])
-        return quick(trial)
+    def walk(
+        trials: Sequence[Trial], *, workers: int, stop: Callable[[], bool], series: Path | None
+    ) -> Iterator[Row]:
+        for trial in trials:
+            if stop():
+                return
+            asked.append(trial.place[-1])
+            yield made(trial)
 
-    monkeypatch.setattr(engine, "run_trial", work)
+    monkeypatch.setattr(engine, "run_trials", walk)
     return asked
+
+
+@pytest.fixture
+def no_runs(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    return without_runs(monkeypatch)
 
 
 def lines(folder: Path) -> list[Row]:
@@ -59,7 +75,7 @@ def lines(folder: Path) -> list[Row]:
 
 
 def test_a_trial_is_a_pure_function_of_its_experiment() -> None:
-    (trial,) = engine.grid_of("mi", methods=["apnc"], **SHORT)
+    (trial,) = grid_of("mi", methods=["apnc"], **SHORT)
     row = run_trial(trial)
     assert row == run_trial(trial) and json.dumps(row, allow_nan=False)
     other = replace(trial, experiment=replace(trial.experiment, seed=1))
@@ -68,10 +84,32 @@ def test_a_trial_is_a_pure_function_of_its_experiment() -> None:
 
 
 def test_a_trial_that_raises_is_a_row_with_its_error() -> None:
-    (trial,) = engine.grid_of("mi", methods=["apnc"], **SHORT)
+    (trial,) = grid_of("mi", methods=["apnc"], **SHORT)
     row = run_trial(replace(trial, experiment=replace(trial.experiment, fmu=__file__)))
     assert row["error"].startswith("FmuError: ") and "\n" not in row["error"]
     assert row["end"] == "error" and row["mi"] == 0.08
+
+
+@pytest.mark.parametrize("own", ["exudyn", "compiled"])
+def test_trials_that_raise_spoil_no_other(own: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One with no controller, one with that of other legs, one whose figures cannot be measured."""
+    trials = grid_of("mi", 4, methods=["apnc"], chosen={"mi": [0.08]}, duration=0.5)
+    sound, fails, *wrong = (replace(t.experiment, engine=own) for t in trials)
+    fmus = [__file__, str(host_fmu(6))]
+    wrong = [replace(one, fmu=fmu) for one, fmu in zip(wrong, fmus, strict=True)]
+    every = [replace(t, experiment=e) for t, e in zip(trials, [sound, fails, *wrong], strict=True)]
+
+    def measured(study: str, record: Record) -> Row:
+        if record.experiment.seed == fails.seed:
+            raise ZeroDivisionError("moo")
+        return {"error": ""}
+
+    monkeypatch.setattr(engine, "measured", measured)
+    rows = {row["key"]: row["error"] for row in run_trials(every, workers=2)}
+    first, moo, none, six = (rows[trial.place[-1]] for trial in every)
+    assert (first, moo) == ("", "ZeroDivisionError: moo")
+    assert none.startswith("FmuError: ") and __file__ in none
+    assert six.startswith("ValueError: ") and "6 legs" in six
 
 
 def test_numbers_that_are_not_finite_are_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -155,12 +193,12 @@ def test_the_wall_time_is_that_of_all_runs_of_a_study(
 def test_resume_runs_rows_with_an_error_again(
     tmp_path: Path, no_runs: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(trial: Trial, series: Path | None = None) -> Row:
+    def broken(trial: Trial) -> Row:
         error = "RuntimeError: moo" if trial.cell["method"] == "apnc" else ""
         return quick(trial) | {"error": error, "end": "error" if error else "complete"}
 
     with monkeypatch.context() as context:
-        context.setattr(engine, "run_trial", broken)
+        without_runs(context, broken)
         first = run_study("damage", output=tmp_path, trials=1)
     assert [row["error"] for row in first] == ["RuntimeError: moo", *[""] * 4]
     rows = run_study("damage", output=tmp_path, trials=1, resume=True)
@@ -224,10 +262,67 @@ def test_no_workers_are_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "out").exists()
 
 
-def test_rows_do_not_depend_on_workers(tmp_path: Path) -> None:
-    here = run_study("mi", methods=["apnc", "apc"], **SHORT)
-    there = run_study("mi", methods=["apnc", "apc"], workers=2, **SHORT)
-    assert here == there and all(row["error"] == "" for row in here)
+KINDS: dict[str, Any] = {"trials": 5, "methods": ["apnc", "apc"], "duration": 2.0}
+"""Trials of two kinds, of which one fills no batch."""
+
+
+def test_rows_are_those_of_single_runs_whatever_walks_beside_them(tmp_path: Path) -> None:
+    asked = {**KINDS, "chosen": {"rate": [60.0, 30.0]}}
+    here = run_study("rate", **asked)
+    assert here == run_study("rate", **asked, workers=3)
+    alone = run_study("rate", **{**asked, "trials": 3}, output=tmp_path)
+    assert [row for row in here if row["seed"] < 3] == alone
+    assert here == run_study("rate", **asked, output=tmp_path, resume=True)
+    singly = [run_trial(trial) for trial in grid_of("rate", **asked)]
+    assert here == singly and all(row["error"] == "" for row in here)
+
+
+def test_studies_walk_in_c_unless_they_name_an_engine(tmp_path: Path, no_runs: list[str]) -> None:
+    found = {name: {t.experiment.engine for t in grid_of(name, 1)} for name in STUDIES}
+    assert found.pop("engines") == {"exudyn", "mujoco", "compiled"}
+    assert found.pop("contact") == {"exudyn"}
+    assert set.union(*found.values()) == {"compiled"}
+    run_study("damage", trials=1, output=tmp_path)
+    assert "<dt>engine</dt><dd>compiled</dd>" in (tmp_path / "report.html").read_text()
+
+
+def test_other_engines_walk_in_processes_and_say_what_they_need(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: dict[str, Any] = {"trials": 2, "duration": 0.5}
+    asked["chosen"] = {"engine": ["compiled", "exudyn"], "mi": [0.08]}
+    rows = run_study("engines", **asked, workers=2)
+    assert rows == run_study("engines", **asked)
+    assert [row["engine"] for row in rows] == ["compiled"] * 2 + ["exudyn"] * 2
+    assert all(row["error"] == "" for row in rows)
+    monkeypatch.setitem(sys.modules, "loky", None)
+    with pytest.raises(ValueError, match=r"engine exudyn needs the extra 'study': pip install"):
+        run_study("engines", **asked, workers=2)
+    assert len(run_study("damage", trials=1, duration=0.5, workers=2)) == 5
+
+
+def test_a_chunk_is_of_one_kind_and_another_engine_goes_by_itself() -> None:
+    rates = grid_of("rate", 20, ["apnc"], {"rate": [60.0, 30.0]})
+    others = grid_of("engines", 2, None, {"engine": ["exudyn"], "mi": [0.08]})
+    chunks = chunks_of([*others, *rates[:5], *rates[20:], *rates[5:20]])
+    assert [len(chunk) for chunk in chunks] == [20, 20, 1, 1]
+    assert all(len({trial.experiment.rate for trial in chunk}) == 1 for chunk in chunks)
+    assert [len(c) for c in chunks_of(grid_of("damage", 5 * CHUNK, ["apnc"]))] == [CHUNK] * 5
+
+
+def test_no_further_chunk_begins_after_a_stop() -> None:
+    trials = grid_of("engines", 6, None, {"engine": ["exudyn"], "mi": [0.08]})
+    begun: list[Trial] = []
+
+    def walk(trials: Sequence[Trial], *, workers: int, stop: Callable[[], bool]) -> Iterator[Row]:
+        begun.extend(trials)
+        return map(quick, trials)
+
+    with ThreadPoolExecutor(2) as executor:
+        rows = rows_of(
+            trials, walk, executor, workers=2, cluster=False, stop=lambda: len(begun) >= 2
+        )
+        assert len(list(rows)) == len(begun) < 6
 
 
 # --- rows on disk ------------------------------------------------------------------------------
@@ -260,12 +355,24 @@ def test_a_damaged_line_costs_its_own_trial_only(tmp_path: Path) -> None:
     kept.close()
 
 
-def test_a_row_is_on_disk_at_once(tmp_path: Path) -> None:
+def test_a_row_is_in_the_file_at_once(tmp_path: Path) -> None:
     kept = Store(tmp_path / "t.jsonl")
     kept.add(row("a"))
     text = (tmp_path / "t.jsonl").read_text()
     assert text.endswith("}\n") and json.loads(text) == row("a", wall_s=0.0)
     kept.close()
+
+
+def test_the_disk_is_waited_for_once_a_second_and_at_the_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now, waited = [0.0], list[float]()
+    monkeypatch.setattr(store.time, "perf_counter", lambda: now[0])
+    monkeypatch.setattr(store.os, "fsync", lambda file: waited.append(now[0]))
+    with Store(tmp_path / "t.jsonl") as kept:
+        for now[0] in (0.5, 0.9, 1.1, 1.2, 2.0, 2.3, 2.4):
+            kept.add(row("a"))
+    assert waited == [1.1, 2.3, 2.4]
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
@@ -281,7 +388,7 @@ def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
 KILLED = """
 import sys
 from apnc.studies.engine import run_study
-run_study("damage", trials=40, duration=1.0, workers=1, output=sys.argv[1])
+run_study("damage", trials=400, duration=10.0, workers=1, output=sys.argv[1])
 """
 
 
@@ -298,8 +405,8 @@ def test_a_killed_study_resumes_without_loss_or_repetition(tmp_path: Path) -> No
         process.wait()
     path.write_text("".join(x for x in path.read_text().splitlines(True) if x.endswith("}\n")))
     before = lines(tmp_path)
-    assert 2 <= len(before) < 120
-    rows = run_study("damage", trials=1, duration=1.0, output=tmp_path, resume=True)
+    assert 2 <= len(before) < 1200
+    rows = run_study("damage", trials=1, duration=10.0, output=tmp_path, resume=True)
     assert lines(tmp_path)[: len(before)] == before
     assert len(rows) == len({place_of(row) for row in rows}) == 5
 
@@ -332,11 +439,11 @@ def test_dask_gives_the_same_rows_though_a_worker_is_killed(
     cluster: tuple[str, list[subprocess.Popen[bytes]]],
 ) -> None:
     address, processes = cluster
-    asked: dict[str, Any] = {"trials": 4, "duration": 1.0}
+    asked: dict[str, Any] = {"trials": 2 * CHUNK, "duration": 5.0}
     here = run_study("damage", **asked)
 
     def kill_one(done: int, *_: float) -> None:
-        if done == 3:
+        if 0 < done < len(here):
             processes[1].kill()
 
     there = run_study("damage", **asked, scheduler=address, progress=kill_one)
