@@ -96,7 +96,13 @@ def test_with_the_same_commands_the_engines_stay_together_up_to_rounding() -> No
 
     assert path_of("mujoco", 1.0)[-1, 0] > 0.05
     # also says that Exudyn's Velocity Verlet, "under development", is the one in the textbook
-    assert distances(1.0).max() < 1e-11
+    assert distances("mujoco", 1.0).max() < 1e-11
+
+
+def test_with_the_same_commands_plain_c_stays_with_exudyn_up_to_rounding() -> None:
+    from apnc.studies.engines.replay import distances  # noqa: PLC0415
+
+    assert 0.0 < distances("compiled", 1.0).max() < 1e-11
 
 
 def test_the_study_runs_every_engine_and_shows_them_side_by_side() -> None:
@@ -105,7 +111,7 @@ def test_the_study_runs_every_engine_and_shows_them_side_by_side() -> None:
 
     trials = grid_of("engines", 2, chosen={"mi": ["0.15"]})
     found = {(t.cell["engine"], t.experiment.engine) for t in trials}
-    assert found == {("exudyn", "exudyn"), ("mujoco", "mujoco")}
+    assert found == {(engine, engine) for engine in ("exudyn", "mujoco", "compiled")}
     rows = [
         {"study": "engines", **trial.cell, "convergence_time_s": 1.0 + k, "fell": False}
         for k, trial in enumerate(trials)
@@ -114,9 +120,10 @@ def test_the_study_runs_every_engine_and_shows_them_side_by_side() -> None:
     assert [line.split(" | ")[1:4] for line in table[2:]] == [
         ["Exudyn", "2/2 (16 ... 100 %)", "1.5 (1.0 ... 2.0)"],
         ["MuJoCo", "2/2 (16 ... 100 %)", "3.5 (3.0 ... 4.0)"],
+        ["plain C", "2/2 (16 ... 100 %)", "5.5 (5.0 ... 6.0)"],
     ]
     first = STUDY.figures(rows)[0]
-    assert [trace["y"] for trace in first.data] == [[1.0, 2.0], [3.0, 4.0]]
+    assert [trace["y"] for trace in first.data] == [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]
 
 
 def test_cost_at_equal_error_goes_along_the_powers_of_the_step() -> None:

@@ -1,10 +1,12 @@
-"""Does the gait form in another engine as it does in Exudyn?"""
+"""Does the gait form in other engines, and in plain C, as it does in Exudyn?"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib.util import find_spec
 from typing import Any, Final
 
+from apnc.loop.engines import COMPILED, EXTRAS, OWN_ENGINE
 from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
 from apnc.report.figure import Figure
@@ -25,11 +27,16 @@ from apnc.studies.table import markdown, middle
 
 MI_VALUES: Final = tuple(round(0.06 + 0.02 * i, 2) for i in range(12))
 
-ENGINES: Final = ("exudyn", "mujoco")
-"""The engines that are compared."""
+ENGINES: Final = (OWN_ENGINE, "mujoco", COMPILED)
+"""The engines that are compared; those whose package is missing only if they are asked for."""
 
 SHOWN_MI: Final = 0.15
 """MI of the walk that is drawn over time."""
+
+
+def installed() -> list[str]:
+    """The engines that can walk here."""
+    return [engine for engine in ENGINES if engine not in EXTRAS or find_spec(engine)]
 
 
 def experiment(engine: str, **fields: Any) -> Experiment:
@@ -61,10 +68,11 @@ def _line(gait: str, mi: float, engine: str, rows: list[Row]) -> dict[str, str]:
 
 
 def scenes(robot: Robot) -> list[Figure]:
-    """One walk of the robot in each engine, and Lilibot's replay over time."""
-    runs = {name: experiment(name, robot=robot, seed=1, mi=SHOWN_MI) for name in ENGINES}
+    """One walk of the robot in each engine, and Lilibot's replays over time."""
+    runs = {name: experiment(name, robot=robot, seed=1, mi=SHOWN_MI) for name in installed()}
     records = {name: simulate(run) for name, run in runs.items()}
-    return [figures.walks(records), figures.replay()]
+    others = [engine for engine in runs if engine != OWN_ENGINE]
+    return [figures.walks(records), figures.replay(others)]
 
 
 STUDY: Final = Study(
@@ -72,7 +80,9 @@ STUDY: Final = Study(
     experiment,
     {"engine": ENGINES, "mi": MI_VALUES},
     methods=("apnc",),
+    seeds=lambda cell, trials: trials if cell["engine"] in installed() else 0,
     figures=figures.over_mi,
     scenes=scenes,
     table=table,
+    engine=None,
 )

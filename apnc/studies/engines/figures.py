@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from apnc.loop.engines import COMPILED, OWN_ENGINE
 from apnc.loop.record import Record
 from apnc.report import theme
 from apnc.report.encoding import float32
@@ -18,8 +19,9 @@ from apnc.studies.plots import spread
 from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
 
 STYLES: Final = {
-    "exudyn": ("Exudyn", theme.BLUE, "circle"),
+    OWN_ENGINE: ("Exudyn", theme.BLUE, "circle"),
     "mujoco": ("MuJoCo", theme.ORANGE, "diamond"),
+    COMPILED: ("plain C", theme.GREEN, "square"),
 }
 """Label, colour and symbol by name of the engine."""
 
@@ -65,18 +67,22 @@ def _figure(rows: Sequence[Row], column: str, title: str) -> Figure:
     return Figure(f"engines-{column}", heading, "", data, layout, over_time=False)
 
 
-def replay() -> Figure:
-    """Distance between the engines over time, under the same commands."""
-    found = np.maximum(distances(), LEAST)
-    x = {"x": float32(TICK * np.arange(1, len(found) + 1))}
+def replay(engines: Sequence[str]) -> Figure:
+    """Distance of other engines from Exudyn over time, under the same commands."""
+    data: list[Trace] = []
+    for engine in engines:
+        name, colour, _ = STYLES[engine]
+        found = np.maximum(distances(engine), LEAST)
+        x = {"x": float32(TICK * np.arange(1, len(found) + 1))}
+        data.append(line(found, name, colour) | x)
     layout = theme.layout(
         340,
         xaxis=theme.axis("time [s]"),
         yaxis=theme.axis("distance [m]", type="log", exponentformat="power"),
     )
-    note = "Lilibot's trot on fixed phases, the same commands in both engines."
-    data = [line(found, "measured", theme.BLUE) | x]
-    return Figure("engines-replay", "From one engine to the other", note, data, layout)
+    note = "Lilibot's trot on fixed phases, the same commands in all engines."
+    title = f"Distance from {STYLES[OWN_ENGINE][0]}"
+    return Figure("engines-replay", title, note, data, layout)
 
 
 def walks(records: Mapping[str, Record]) -> Figure:

@@ -12,7 +12,7 @@ from typing import Final
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
-from apnc.studies.engines import ENGINES
+from apnc.studies.engines import installed
 from apnc.studies.engines.figures import STYLES
 from apnc.studies.robots import symmetric
 from apnc.studies.study import WALK_S
@@ -46,7 +46,7 @@ def cases() -> Iterator[tuple[str, list[Experiment]]]:
 def line(words: str, runs: list[Experiment]) -> dict[str, str]:
     """How often the trot forms in each engine, when [s], and what came instead."""
     cells = {"case": words}
-    for engine in ENGINES:
+    for engine in installed():
         found = [summarise(simulate(replace(run, engine=engine))) for run in runs]
         cells[STYLES[engine][0]] = _cell(found)
     return cells

@@ -1,4 +1,4 @@
-"""The same commands in both engines: they stay together up to rounding."""
+"""The same commands in all engines: they stay together up to rounding."""
 
 from __future__ import annotations
 
@@ -32,7 +32,12 @@ def path_of(engine: str, length: float = LENGTH) -> Array:
     return np.asarray(trace.channels()["position"])
 
 
-def distances(length: float = LENGTH, other: str = "mujoco") -> Array:
-    """Distance between the trunks in the two engines after every tick [m]."""
-    own, its = path_of(OWN_ENGINE, length), path_of(other, length)
+def distances(engine: str, length: float = LENGTH) -> Array:
+    """Distance between the trunks in an engine and in Exudyn after every tick [m].
+
+    Args:
+        engine: that is compared.
+        length: of the trot [s].
+    """
+    own, its = path_of(OWN_ENGINE, length), path_of(engine, length)
     return np.asarray(np.linalg.norm(own - its, axis=1))

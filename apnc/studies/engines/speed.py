@@ -13,7 +13,7 @@ import numpy as np
 
 from apnc.loop.engines import plant_in
 from apnc.studies.contact.measure import GRADUAL, TICK, commands, errors, robot, trot
-from apnc.studies.engines import ENGINES
+from apnc.studies.engines import installed
 from apnc.studies.engines.figures import STYLES
 from apnc.studies.table import markdown
 from apnc_plant.options import PlantOptions
@@ -39,12 +39,12 @@ class Cost(NamedTuple):
 
 def measure(repeats: int = 15, ticks: int = 120) -> dict[Key, Cost]:
     """Cost by engine and steps per tick; the engines walk in turn, so that load hits all alike."""
-    keys = [(engine, n) for engine in ENGINES for n in STEPS]
+    keys = [(engine, n) for engine in installed() for n in STEPS]
     times: dict[Key, list[float]] = {key: [] for key in keys}
     for _ in range(repeats):
         for key in keys:
             times[key].append(_tick_s(*key, ticks))
-    finest = {engine: trot(GRADUAL, FINEST, engine) for engine in ENGINES}
+    finest = {engine: trot(GRADUAL, FINEST, engine) for engine in installed()}
     return {
         (engine, n): Cost(
             float(errors(trot(GRADUAL, n, engine), finest[engine])["force_error"]),
