@@ -7,7 +7,6 @@ same search. ``apnc.studies.search.front`` finds the best of all candidates of s
 from __future__ import annotations
 
 import csv
-import functools
 import importlib
 from collections.abc import Sequence
 from pathlib import Path
@@ -18,11 +17,9 @@ import typer
 from numpy.typing import NDArray
 
 from apnc.studies.search.command import run, tracked
-from apnc.studies.search.costs import FAILED, costs, names
+from apnc.studies.search.costs import costs_of, names
 from apnc.studies.search.knobs import Candidate, Knob, knobs_of, start
-from apnc.studies.workers import pool
 from apnc_plant.robot import load_robot
-from build_fmu.build import host_fmu
 
 Array = NDArray[np.float64]
 
@@ -36,7 +33,7 @@ def search(
     seed: Annotated[int, typer.Option(help="Of optimiser and trials.")] = 1,
     generations: Annotated[int, typer.Option(min=1, help="How many.")] = 60,
     candidates: Annotated[int, typer.Option(min=2, help="In a generation.")] = 14,
-    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+    workers: Annotated[int, typer.Option(min=1, help="Threads.")] = 1,
     sigma: Annotated[float, typer.Option(help="First spread, share of the ranges.")] = 0.15,
     begin: Annotated[Path | None, typer.Option(help="Log whose last mean is the start.")] = None,
 ) -> None:
@@ -48,15 +45,10 @@ def search(
     first = [_within(knob.place(value)) for knob, value in _begin(robot, knobs, begin)]
     strategy = _strategy(first, sigma, seed, candidates)
     output.mkdir(parents=True, exist_ok=True)
-    host_fmu()  # built once here, not by every worker at the same time
     parts = names(len(load_robot(robot).legs))
     weights = [feet if name.startswith("feet") else 1.0 for name in parts]
-    judge = functools.partial(_costs, parts=len(parts), robot=robot, method=method)
     mean: Candidate = {}
-    with (
-        (output / "search.csv").open("w", newline="", encoding="utf-8") as file,
-        pool(workers, None) as executor,
-    ):
+    with (output / "search.csv").open("w", newline="", encoding="utf-8") as file:
         log = csv.writer(file)
         log.writerow(
             ["generation", "cost", *(f"cost_{n}" for n in parts), *(k.name for k in knobs)]
@@ -64,8 +56,7 @@ def search(
         for generation in tracked(range(generations), generations, "generations"):
             points = strategy.ask()
             tried = [_candidate(knobs, x) for x in points]
-            seeds = [1000 * seed + generation] * len(tried)
-            found = list((executor.map if executor else map)(judge, tried, seeds))
+            found = costs_of(tried, 1000 * seed + generation, robot, method, workers)
             # squares: one large cost weighs more than many small ones
             weighed = np.multiply(found, weights)
             totals = (weighed + weighed**2).sum(axis=1).tolist()
@@ -79,15 +70,6 @@ def search(
             file.flush()
     for name, value in mean.items():
         typer.echo(f"{name} = {value:.4g}")
-
-
-def _costs(
-    candidate: Candidate, seed: int, *, parts: int, robot: str, method: str
-) -> tuple[float, ...]:
-    try:
-        return costs(candidate, seed, robot, method)
-    except (ValueError, RuntimeError):
-        return (FAILED,) * parts
 
 
 def _within(x: float) -> float:

@@ -1,29 +1,29 @@
 """What a candidate must do, in short runs, and how far it is from that; 0 is perfect.
 
 A run that does not come to its end, since the robot fell or the motion diverged, costs ``FAILED``.
+All runs of all candidates walk in C, side by side.
 """
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Final
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from apnc import metrics
 from apnc.loop.experiment import Experiment, Setting
+from apnc.loop.many import walk_many
 from apnc.loop.record import Record
-from apnc.loop.simulate import simulate
 from apnc.studies.search.knobs import Candidate, built_robot, gains
 from apnc.studies.states.measure import STOPPED, judge
 from apnc.studies.states.timeline import Timeline
 from apnc.studies.study import COURSE_MI, WALK_MI
-from apnc_plant.conditions import Conditions
-from apnc_plant.robot import RobotDescription
-from apnc_plant.trace import Trace
+from apnc_plant.conditions import ALL, Conditions
+from apnc_plant.robot import RobotDescription, load_robot
 
 Array = NDArray[np.float64]
 
@@ -67,6 +67,12 @@ WANTED_RATIO: Final = 2.0
 MARGIN: Final = 0.93
 """Share of the learning rates with which an oscillator under a stuck load must still stop [1]."""
 
+HELD_AT: Final = 0.05
+"""Height over its start at which a robot hangs [m]: no foot reaches the ground."""
+
+STUCK_AT: Final = 5.0
+"""When its sensors stick [s]."""
+
 MEMORY: Final = Timeline(lowered=0.0, broken=3.0, stopped=8.0, restarted=9.0, end=17.0)
 
 INEXACT: Final = (0.16, -0.09, 0.12, -0.05, 0.1, -0.12, 0.08)
@@ -81,48 +87,129 @@ def names(n_legs: int) -> tuple[str, ...]:
     return (*(f"mi_{mi}" for mi in bands), *(f"feet_{mi}" for mi in bands), *OTHERS)
 
 
-def costs(
+Figures = Mapping[str, float]
+"""Costs, and speeds [m/s] of which costs are made, by name."""
+
+
+class Task(NamedTuple):
+    """A run of a candidate, and what is taken of its record."""
+
+    experiment: Experiment
+    judge: Callable[[Record], Figures]
+
+
+def costs_of(
+    candidates: Sequence[Candidate],
+    seed: int,
+    robot_name: str = "lilibot",
+    method: str = "apnc",
+    workers: int = 1,
+) -> list[tuple[float, ...]]:
+    """Costs of candidates, by ``names``; ``FAILED`` in all of one that cannot be run.
+
+    Args:
+        candidates: what is tried, all with the same seeds.
+        seed: of their runs.
+        robot_name: of the robot.
+        method: name of the controller.
+        workers: threads.
+    """
+    n_legs = len(load_robot(robot_name).legs)
+    found: list[dict[str, float]] = [{} for _ in candidates]
+    asked: list[tuple[int, Task]] = []
+    failed: set[int] = set()
+    for n, candidate in enumerate(candidates):
+        try:
+            asked += [(n, task) for task in tasks(candidate, seed, robot_name, method)]
+        except ValueError:  # not a robot, or not parameters
+            failed.add(n)
+    for at, figures in walk_many(
+        [task.experiment for _, task in asked],
+        lambda at, record: asked[at][1].judge(record),
+        workers=workers,
+    ):
+        n, _ = asked[at]
+        if not isinstance(figures, Exception):
+            found[n].update(figures)
+        elif isinstance(figures, ValueError | RuntimeError):
+            failed.add(n)
+        else:
+            raise figures
+    worst = (FAILED,) * len(names(n_legs))
+    return [worst if n in failed else costs(own, n_legs) for n, own in enumerate(found)]
+
+
+def costs(found: Figures, n_legs: int) -> tuple[float, ...]:
+    """Costs by ``names`` of the figures of all runs; 0 for what was not asked of the robot."""
+    own = dict(found)
+    if (fast := own.get(_speed(FASTEST))) is not None:
+        own["ratio"] = 1.5 * ratio_cost(own[_speed(COURSE_MI)], fast)
+    return tuple(own.get(name, 0.0) for name in names(n_legs))
+
+
+def _speed(mi: float) -> str:
+    return f"speed at {mi:.2f}"
+
+
+def tasks(
     candidate: Candidate, seed: int, robot_name: str = "lilibot", method: str = "apnc"
-) -> tuple[float, ...]:
-    """Costs of one candidate, by ``names``.
+) -> Iterator[Task]:
+    """The runs of a candidate.
 
     Memory, steering and a blocked oscillator are asked of APNC alone; payload, the fast walk, other
     update rates and steering of four legs alone.
+
+    Raises:
+        ValueError: numbers that are no robot, or no parameters of the controller.
     """
     robot, settings = built_robot(candidate, robot_name), gains(candidate)
     n_legs, own = len(robot.legs), method == "apnc"
     bands, four = BANDS[n_legs], n_legs == 4
     seeds = itertools.count(100 * seed)  # another asymmetry and noise in every trial
 
-    def walked(mi: float, **more: Any) -> Record:
+    def walk(mi: float, **more: Any) -> Experiment:
         what = {"robot": robot, "settings": settings, "method": method, "duration": WALK_S, **more}
-        return simulate(Experiment(mi=mi, seed=next(seeds), **what))
+        return Experiment(mi=mi, seed=next(seeds), **what)
 
-    def cost(of: Callable[[Record], float], record: Record) -> float:
-        return of(record) if record.complete else FAILED
+    # without the couplings at one MI: what they then store must be good by itself
+    bare = seed % len(bands)
+    for n, band in enumerate(bands):
+        mi = band[seed % len(band)]
+        yield Task(walk(mi, method="apc" if own and n == bare else method), _walk_of(band[0]))
+    if four:
+        rate = RATES[seed % len(RATES)]
+        slow = walk(WALK_MI, rate=rate, duration=WALK_S * 60.0 / rate)
+        yield Task(slow, _cost("rate", formation_cost))
+        yield Task(walk(WALK_MI, conditions="C4"), _cost("payload", payload_cost))
+    yield Task(walk(COURSE_MI, conditions="C3"), _cost("damage", damage_cost))
+    if own:
+        gait = np.add(_target(n_legs), INEXACT[: n_legs - 1])
+        stored: dict[str, Setting] = {"stored": True, "phi_stored": tuple(gait.tolist())}
+        kept: dict[str, Any] = {"robot": robot, "settings": {**settings, **stored}}
+        memory = MEMORY.experiment("apnc", next(seeds), **kept)
+        yield Task(memory, _cost("memory", memory_cost))
+        if four:
+            turns = Experiment(seed=next(seeds), **STEERING, **kept)
+            yield Task(turns, _cost("steering", steering_cost))
+        yield Task(blocked(robot, settings), _cost("blocked", lambda r: 3.0 * blocked_cost(r)))
 
-    mis = [band[seed % len(band)] for band in bands]
-    # without the couplings at one of them: what they then store must be good by itself
-    bare = seed % len(mis)
-    walks = [walked(mi, method="apc" if own and n == bare else method) for n, mi in enumerate(mis)]
-    speeds = {mi: walk_speed(walk) for mi, walk in zip(mis, walks, strict=True)}
-    rate = RATES[seed % len(RATES)]
-    gait = np.add(_target(n_legs), INEXACT[: n_legs - 1])
-    stored: dict[str, Setting] = {"stored": True, "phi_stored": tuple(gait.tolist())}
-    shared: dict[str, Any] = {"robot": robot, "settings": {**settings, **stored}}
-    return (
-        *(cost(walk_cost, walk) for walk in walks),
-        *(cost(feet_cost, walk) for walk in walks),
-        1.5 * ratio_cost(speeds[COURSE_MI], speeds[FASTEST]) if four else 0.0,
-        cost(formation_cost, walked(WALK_MI, rate=rate, duration=WALK_S * 60.0 / rate))
-        if four
-        else 0.0,
-        cost(payload_cost, walked(WALK_MI, conditions="C4")) if four else 0.0,
-        cost(damage_cost, walked(COURSE_MI, conditions="C3")),
-        memory_cost(MEMORY.experiment("apnc", next(seeds), **shared)) if own else 0.0,
-        steering_cost(Experiment(seed=next(seeds), **STEERING, **shared)) if own and four else 0.0,
-        3.0 * blocked_cost(robot, settings) if own else 0.0,
-    )
+
+def _cost(name: str, of: Callable[[Record], float]) -> Callable[[Record], Figures]:
+    return lambda record: {name: of(record) if record.complete else FAILED}
+
+
+def _walk_of(band: float) -> Callable[[Record], Figures]:
+    """Costs and speed of a walk at an MI of the band that begins with this one."""
+
+    def judge(record: Record) -> Figures:
+        walk, feet = (of(record) if record.complete else FAILED for of in (walk_cost, feet_cost))
+        return {
+            f"mi_{band:.2f}": walk,
+            f"feet_{band:.2f}": feet,
+            _speed(_mi(record)): walk_speed(record),
+        }
+
+    return judge
 
 
 class _Late:
@@ -206,11 +293,8 @@ def ratio_cost(slow: float, fast: float) -> float:
     return min(2.0, max(0.0, WANTED_RATIO - fast / max(slow, 0.02)))
 
 
-def memory_cost(experiment: Experiment) -> float:
+def memory_cost(record: Record) -> float:
     """How far S2 and S3 with a stored gait are from the paper's."""
-    record = simulate(experiment)
-    if not record.complete:
-        return FAILED
     found, cost = judge(record, MEMORY), 0.0
     for begin, end, state in ((3.5, 8.0, "speed_s2"), (14.0, 17.0, "speed_s3")):
         error = _error(record, slice(int(begin * 60), int(end * 60)))
@@ -226,55 +310,42 @@ STEERING: Final[Mapping[str, Any]] = {
 }
 
 
-def steering_cost(experiment: Experiment) -> float:
+def steering_cost(record: Record) -> float:
     """How far from turning briskly, and alike, to either side, with a stored gait."""
-    record = simulate(experiment)
-    if not record.complete:
-        return FAILED
     turned = np.unwrap(record.plant["rpy"][:, 2])[[270, 449, 540, 719]]
     left, right = float(turned[1] - turned[0]) / 3.0, float(turned[2] - turned[3]) / 3.0
     slow = sum(min(2.0, max(0.0, 1.0 - rate / WANTED_STEERING)) for rate in (left, right))
     return slow + min(1.0, abs(left - right) / WANTED_STEERING)
 
 
-def blocked_cost(robot: RobotDescription, settings: Mapping[str, float]) -> float:
-    """Rate of an oscillator without couplings whose load sticks at 0.9, over its free rate.
+def blocked(robot: RobotDescription, settings: Mapping[str, float]) -> Experiment:
+    """No foot feels a load, until all sensors stick at 0.9; the robot hangs, nothing moves it.
 
-    Zero if it stops with learning rates a little lower, too. The rate falls towards the stop, so
-    the search sees where to go.
+    The learning rates are a little lower than the candidate's, and there are no couplings.
     """
     weaker = {name: settings[name] * MARGIN for name in ("B_f", "B_s") if name in settings}
-    experiment = Experiment(
-        robot=robot, mi=COURSE_MI, duration=15.0, method="apc", settings={**settings, **weaker}
+    silent = Conditions(dropout=(ALL,), held_at=HELD_AT)
+    stuck = Conditions(stuck={leg.name: 0.9 for leg in robot.legs}, held_at=HELD_AT)
+    return Experiment(
+        robot=robot,
+        mi=COURSE_MI,
+        duration=15.0,
+        method="apc",
+        settings={**settings, **weaker},
+        conditions=((0.0, silent), (STUCK_AT, stuck)),
     )
-    plant = _StuckSensor(experiment.description, ticks=300)
-    o1 = simulate(experiment, plant=plant).controller["o1"][:, 0]
+
+
+def blocked_cost(record: Record) -> float:
+    """Rate of the first oscillator once its load sticks, over its free rate; 0 if it stops.
+
+    The rate falls towards the stop, so the search sees where to go.
+    """
+    o1 = record.controller["o1"][:, 0]
     free, stuck = o1[60:300], o1[-480:]
     if np.ptp(stuck[-240:]) < STOPPED:
         return 0.0
     return min(1.0, 0.2 + 0.5 * _turns(stuck) / max(1, _turns(free)))
-
-
-class _StuckSensor:
-    """A plant without a robot: no foot bears a load, until after some ticks all sensors stick."""
-
-    fell = False
-
-    def __init__(self, robot: RobotDescription, ticks: int) -> None:
-        self.legs, self.mass = tuple(leg.name for leg in robot.legs), robot.mass
-        self._load, self._left = 0.9 * robot.weight / 2.0, ticks
-
-    def grf(self) -> Array:
-        return np.full(len(self.legs), self._load if self._left < 0 else 0.0)
-
-    def set_conditions(self, conditions: Conditions) -> None:
-        pass
-
-    def advance(self, theta_hip: Array, theta_knee: Array, duration: float) -> None:
-        self._left -= 1
-
-    def trace(self) -> Trace:
-        return Trace((np.zeros(1),), lambda rows: {})
 
 
 def _mi(record: Record) -> float:

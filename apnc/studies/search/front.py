@@ -8,8 +8,7 @@ beats in these are the front.
 from __future__ import annotations
 
 import csv
-import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Final
 
@@ -18,12 +17,13 @@ import typer
 from numpy.typing import ArrayLike, NDArray
 
 from apnc.loop.experiment import Experiment
-from apnc.loop.simulate import simulate
+from apnc.loop.many import walk_many
+from apnc.loop.record import Record
 from apnc.studies import gait
+from apnc.studies.rows import Row
 from apnc.studies.search.command import run, tracked
 from apnc.studies.search.knobs import Candidate, built_robot, gains, knobs_of, start
 from apnc.studies.study import COURSE_MI, WALK_MI
-from apnc.studies.workers import pool
 from apnc.summary import summarise
 from apnc_plant.robot import load_robot
 
@@ -88,17 +88,32 @@ def candidates_of(logs: Sequence[Path], count: int, robot: str) -> dict[str, Can
     return {labels[n]: tried[labels[n]] for n in best_layers(points, count)}
 
 
-def measured(candidate: Candidate, robot: str, seeds: int) -> dict[str, float]:
-    """Figures of a candidate over MI, and with payload at MI 0.08."""
-    body, settings = built_robot(candidate, robot), gains(candidate)
+def walks_of(candidate: Candidate, robot: str, seeds: int) -> list[Experiment]:
+    """Walks of a candidate: at every MI with so many seeds, then twice as many with payload."""
+    what: dict[str, Any] = {
+        "robot": built_robot(candidate, robot),
+        "settings": gains(candidate),
+        "duration": WALK_S,
+    }
+    over_mi = [Experiment(mi=mi, seed=seed, **what) for mi in MI_VALUES for seed in range(seeds)]
+    loaded = {"mi": WALK_MI, "conditions": "C4", **what}
+    return over_mi + [Experiment(seed=seed, **loaded) for seed in range(2 * seeds)]
 
-    def walk(mi: float, seed: int, **more: Any) -> dict[str, Any]:
-        what = {"robot": body, "settings": settings, "duration": WALK_S, **more}
-        record = simulate(Experiment(mi=mi, seed=seed, **what))
-        return summarise(record).to_dict() | gait.measure(record)
 
-    rows = {mi: [walk(mi, seed) for seed in range(seeds)] for mi in MI_VALUES}
-    loaded = [walk(WALK_MI, seed, conditions="C4") for seed in range(2 * seeds)]
+def row_of(record: Record) -> Row:
+    """What the figures of a candidate are made of, of one of its walks."""
+    return summarise(record).to_dict() | gait.measure(record)
+
+
+def measured(walks: Sequence[Row], seeds: int) -> dict[str, float]:
+    """Figures of a candidate over MI, and with payload at MI 0.08.
+
+    Args:
+        walks: a row of each, in the order of :func:`walks_of`.
+        seeds: at every MI.
+    """
+    rows = {mi: walks[n * seeds : (n + 1) * seeds] for n, mi in enumerate(MI_VALUES)}
+    loaded = walks[len(MI_VALUES) * seeds :]
     low = [_median(own, gait.LIFT, 0.0) for own in rows.values()]
     slip = [_median(own, gait.SLIP, 1.0) for own in rows.values()]
     turn = [_median(own, "turned_deg", 360.0, abs) * 45.0 / WALK_S for own in rows.values()]
@@ -116,6 +131,24 @@ def measured(candidate: Candidate, robot: str, seeds: int) -> dict[str, float]:
     }
 
 
+def walked(
+    tried: Mapping[str, Candidate], robot: str, seeds: int, workers: int
+) -> Iterator[tuple[str, dict[str, float]]]:
+    """Label and figures of candidates as their walks are done; all of them walk side by side."""
+    walks = {label: walks_of(candidate, robot, seeds) for label, candidate in tried.items()}
+    places = [(label, n) for label, own in walks.items() for n in range(len(own))]
+    rows: dict[str, dict[int, Row]] = {label: {} for label in tried}
+    every = [experiment for own in walks.values() for experiment in own]
+    for at, row in walk_many(every, lambda _, record: row_of(record), workers=workers):
+        if isinstance(row, Exception):
+            raise row
+        label, n = places[at]
+        rows[label][n] = row
+        if len(rows[label]) == len(walks[label]):
+            own = rows.pop(label)
+            yield label, measured([own[n] for n in range(len(own))], seeds)
+
+
 def _median(
     rows: Sequence[Mapping[str, Any]],
     name: str,
@@ -131,7 +164,7 @@ def front(
     robot: Annotated[str, typer.Option(help="Name of the robot.")] = "lilibot",
     count: Annotated[int, typer.Option(min=1, help="How many candidates walk again.")] = 40,
     seeds: Annotated[int, typer.Option(min=1, help="Of every walk.")] = 3,
-    workers: Annotated[int, typer.Option(help="Processes.")] = 1,
+    workers: Annotated[int, typer.Option(min=1, help="Threads.")] = 1,
 ) -> None:
     """Walk the best candidates again and write their figures, the front marked.
 
@@ -141,25 +174,27 @@ def front(
     shipped = load_robot(robot)
     names = [knob.name for knob in knobs_of(robot, "apnc")]
     tried = {SHIPPED: {name: start(shipped, name) for name in names}, **tried}
-    judge = functools.partial(measured, robot=robot, seeds=seeds)
-    found: list[dict[str, float]] = []
-    with pool(workers, None) as executor:
-        walks = (executor.map if executor else map)(judge, tried.values())
-        try:
-            found.extend(tracked(walks, len(tried), "candidates"))
-        finally:
-            _write(output, tried, found)
+    found: dict[str, dict[str, float]] = {}
+    try:
+        done = walked(tried, robot, seeds, workers)
+        for label, figures in tracked(done, len(tried), "candidates"):
+            found[label] = figures
+    finally:
+        _write(output, tried, found)
 
 
-def _write(output: Path, tried: Mapping[str, Candidate], found: Sequence[dict[str, float]]) -> None:
+def _write(
+    output: Path, tried: Mapping[str, Candidate], found: Mapping[str, dict[str, float]]
+) -> None:
     if not found:
         return
-    best = unbeaten([[-sign * one[name] for name, sign in BETTER.items()] for one in found])
+    labels = [label for label in tried if label in found]
+    best = unbeaten([[-sign * found[x][name] for name, sign in BETTER.items()] for x in labels])
     with output.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
-        table.writerow(["candidate", "front", *found[0], *next(iter(tried.values()))])
-        for (label, numbers), one, on_it in zip(tried.items(), found, best, strict=False):
-            values = [f"{value:.5g}" for value in (*one.values(), *numbers.values())]
+        table.writerow(["candidate", "front", *found[labels[0]], *tried[labels[0]]])
+        for label, on_it in zip(labels, best, strict=True):
+            values = [f"{value:.5g}" for value in (*found[label].values(), *tried[label].values())]
             table.writerow([label, int(on_it), *values])
 
 

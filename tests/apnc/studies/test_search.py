@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,17 +16,20 @@ from records import TROT, synthetic_record
 
 from apnc import metrics
 from apnc.loop.experiment import Experiment
-from apnc.loop.record import Record
+from apnc.loop.many import compiled
+from apnc.loop.record import End, Record
 from apnc.loop.simulate import simulate
 from apnc.studies.search.__main__ import Spread, search
 from apnc.studies.search.costs import (
     BANDS,
+    FAILED,
     STEERING,
     WANTED_STEERING,
     WANTED_TURN,
-    _StuckSensor,
+    blocked,
     blocked_cost,
     costs,
+    costs_of,
     damage_cost,
     feet_cost,
     formation_cost,
@@ -34,6 +37,7 @@ from apnc.studies.search.costs import (
     payload_cost,
     ratio_cost,
     steering_cost,
+    tasks,
     walk_cost,
 )
 from apnc.studies.search.front import (
@@ -43,7 +47,9 @@ from apnc.studies.search.front import (
     candidates_of,
     front,
     measured,
+    row_of,
     unbeaten,
+    walks_of,
 )
 from apnc.studies.search.knobs import KNOBS, OWN, built_robot, gains, knobs_of, start
 from apnc_plant.robot import ROBOTS, load_robot
@@ -173,26 +179,21 @@ def test_bad_input_is_one_line_and_exit_code_2(
     assert named in line and "Traceback" not in done.stderr
 
 
-def asked(
-    monkeypatch: pytest.MonkeyPatch, robot: str, method: str
-) -> tuple[dict[str, float], list[Experiment]]:
+def asked(robot: str, method: str) -> tuple[dict[str, float], list[Experiment]]:
     """Costs by name of walks in the robot's gait, and the experiments that were asked for."""
-    legs = tuple(leg.name for leg in load_robot(robot).legs)
-    gait = metrics.default_target(len(legs))
+    legs = len(load_robot(robot).legs)
+    gait = metrics.default_target(legs)
     assert gait is not None
-    runs: list[Experiment] = []
-
-    def simulated(experiment: Experiment, plant: object = None) -> Record:
-        runs.append(experiment)
-        return synthetic_record(experiment.duration, gait)
-
-    monkeypatch.setattr("apnc.studies.search.costs.simulate", simulated)
-    found = costs({}, 0, robot, method)
-    return dict(zip(names(len(legs)), found, strict=True)), runs
+    runs, found = list(tasks({}, 0, robot, method)), dict[str, float]()
+    for run in runs:
+        walk = synthetic_record(run.experiment.duration, gait)
+        found |= run.judge(replace(walk, experiment=run.experiment))
+    own = dict(zip(names(legs), costs(found, legs), strict=True))
+    return own, [run.experiment for run in runs]
 
 
-def test_four_legs_are_asked_for_all(monkeypatch: pytest.MonkeyPatch) -> None:
-    found, runs = asked(monkeypatch, "lilibot", "apnc")
+def test_four_legs_are_asked_for_all() -> None:
+    found, runs = asked("lilibot", "apnc")
     bands = BANDS[4]
     assert [run.mi for run in runs[: len(bands)]] == [band[0] for band in bands]
     assert [run.method for run in runs[: len(bands)]].count("apc") == 1
@@ -203,10 +204,8 @@ def test_four_legs_are_asked_for_all(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found["ratio"] > 0.0  # all walk at one speed
 
 
-def test_six_legs_have_bands_of_their_own_and_no_payload_or_rate(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    found, runs = asked(monkeypatch, "hexapod", "apnc")
+def test_six_legs_have_bands_of_their_own_and_no_payload_or_rate() -> None:
+    found, runs = asked("hexapod", "apnc")
     assert [run.mi for run in runs[: len(BANDS[6])]] == [band[0] for band in BANDS[6]]
     assert all(run.rate == 60.0 and run.conditions != "C4" for run in runs)
     (stored,) = [run.settings["phi_stored"] for run in runs if "stored" in run.settings]
@@ -214,28 +213,58 @@ def test_six_legs_have_bands_of_their_own_and_no_payload_or_rate(
     assert found["ratio"] == found["rate"] == found["payload"] == found["steering"] == 0.0
 
 
-def test_a_baseline_is_asked_for_no_memory(monkeypatch: pytest.MonkeyPatch) -> None:
-    found, runs = asked(monkeypatch, "lilibot", "tegotae")
+def test_a_baseline_is_asked_for_no_memory() -> None:
+    found, runs = asked("lilibot", "tegotae")
     assert {run.method for run in runs} == {"tegotae"}
     assert {"C3", "C4"} < {run.conditions for run in runs}
     assert found["memory"] == found["steering"] == found["blocked"] == 0.0
 
 
-def test_figures_of_the_front_are_those_of_the_walks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of walks that are a trot but for MI 0.06, at 1 MI m/s: 8 of 9 strict, 0.4 / 0.15 in speed."""
+def test_every_run_has_a_seed_of_its_own_and_that_of_its_generation() -> None:
+    seeds = [run.experiment.seed for run in tasks({}, 7)]
+    assert seeds[:-1] == list(range(700, 700 + len(seeds) - 1))
 
-    def simulated(experiment: Experiment) -> Record:
+
+def test_a_run_that_fell_costs_the_most_and_has_no_speed() -> None:
+    for run in tasks({}, 0):
+        walk = synthetic_record(run.experiment.duration)
+        found = dict(run.judge(replace(walk, experiment=run.experiment, end=End.fell)))
+        speeds = {name: found.pop(name) for name in list(found) if name.startswith("speed")}
+        assert set(found.values()) == {FAILED} and set(speeds.values()) <= {0.0}
+
+
+def test_a_candidate_that_is_no_robot_costs_the_most_and_spoils_no_other() -> None:
+    sound = {"gamma_tegotae": 0.1}
+    broken = {"gamma_tegotae": 0.1, "servo.stiffness": -1.0}
+    alone = costs_of([sound], 1, method="tegotae")
+    assert costs_of([broken, sound], 1, method="tegotae") == [(FAILED,) * len(names(4)), *alone]
+
+
+def test_figures_of_the_front_are_those_of_the_walks() -> None:
+    """Of walks that are a trot but for MI 0.06, at 1 MI m/s: 8 of 9 strict, 0.4 / 0.15 in speed."""
+    rows = []
+    for experiment in walks_of({}, "lilibot", 2):
         assert isinstance(experiment.mi, float)
         phases = (0.0, 0.0, 0.0) if experiment.mi == 0.06 else TROT
-        return synthetic_record(experiment.duration, phases, speed=experiment.mi)
-
-    monkeypatch.setattr("apnc.studies.search.front.simulate", simulated)
-    found = measured({}, "lilibot", 2)
+        rows.append(row_of(synthetic_record(experiment.duration, phases, speed=experiment.mi)))
+    found = measured(rows, 2)
     assert found["strict"] == pytest.approx(8 / 9) and found["payload"] == 1.0
     assert found["ratio"] == pytest.approx(0.4 / 0.15, rel=1e-3)
     assert found["turn_deg"] == pytest.approx(0.0, abs=1e-6)
     assert found["lift_mm"] == pytest.approx(found["least_lift_mm"])
     assert found["lifts"] == len(MI_VALUES) * (found["lift_mm"] >= 6.0)
+
+
+def test_the_front_walks_every_candidate_with_and_without_payload(tmp_path: Path) -> None:
+    knobs = [knob.name for knob in knobs_of("lilibot", "apnc")]
+    numbers = ",".join(str(start(LILIBOT, name)) for name in knobs)
+    log = log_of(tmp_path, [",".join(["generation", *knobs]), f"0,{numbers}"])
+    front([log], tmp_path / "front.csv", "lilibot", 1, 1, 2)
+    with (tmp_path / "front.csv").open(newline="") as file:
+        shipped, same = csv.DictReader(file)
+    assert (shipped.pop("candidate"), same.pop("candidate")) == ("shipped", f"{tmp_path.name}:2")
+    # at all MI but the lowest and the highest every run forms the trot
+    assert shipped == same and float(shipped["strict"]) > 6.9 / 9.0
 
 
 def test_the_front_is_marked_and_an_interrupt_keeps_what_has_walked(
@@ -245,15 +274,15 @@ def test_the_front_is_marked_and_an_interrupt_keeps_what_has_walked(
     head = ",".join(["generation", "cost", "cost_mi_0.08", "cost_feet_0.08", *knobs])
     numbers = ",".join("0.1" for _ in knobs)
     log = log_of(tmp_path, [head, *(f"0,9,{n}.0,{-n}.0,{numbers}" for n in range(3))])
-    lifts = iter([5.0, 6.0, 4.0])
 
-    def walked(candidate: dict[str, float], robot: str, seeds: int) -> dict[str, float]:
-        lift = next(lifts, None)
-        if lift is None:
-            raise KeyboardInterrupt
-        return {**dict.fromkeys(BETTER, 1.0), "lift_mm": lift}
+    def walked(
+        tried: dict[str, dict[str, float]], robot: str, seeds: int, workers: int
+    ) -> Iterator[tuple[str, dict[str, float]]]:
+        for label, lift in zip(tried, (5.0, 6.0, 4.0), strict=False):
+            yield label, {**dict.fromkeys(BETTER, 1.0), "lift_mm": lift}
+        raise KeyboardInterrupt
 
-    monkeypatch.setattr("apnc.studies.search.front.measured", walked)
+    monkeypatch.setattr("apnc.studies.search.front.walked", walked)
     with pytest.raises(KeyboardInterrupt):
         front([log], tmp_path / "front.csv", "lilibot", 3, 1, 1)
     with (tmp_path / "front.csv").open(newline="") as file:
@@ -344,32 +373,29 @@ def test_turning_goes_left_and_then_right() -> None:
     ("left", "right", "cost"),
     [(1.0, 1.0, 0.0), (1.2, 1.2, 0.0), (0.5, 0.5, 1.0), (1.0, 0.5, 1.0), (0.0, 0.0, 2.0)],
 )
-def test_slow_and_unlike_turns_cost(
-    left: float, right: float, cost: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_slow_and_unlike_turns_cost(left: float, right: float, cost: float) -> None:
     """In shares of what is asked for: what is missing on each side, and the difference."""
     record = synthetic_record(12.0)
     rate = np.where(record.time < 7.5, left, -right) * WANTED_STEERING
     rpy = record.plant["rpy"].copy()
     rpy[:, 2] = np.cumsum(rate) / 60.0
     turned = replace(record, plant={**record.plant, "rpy": rpy})
-    monkeypatch.setattr("apnc.studies.search.costs.simulate", lambda experiment: turned)
-    assert steering_cost(Experiment(**STEERING)) == pytest.approx(cost, abs=0.02)
+    assert steering_cost(turned) == pytest.approx(cost, abs=0.02)
 
 
-def test_the_stuck_sensor_sticks_after_its_ticks() -> None:
-    experiment = Experiment(method="apc", duration=0.2)
-    plant = _StuckSensor(experiment.description, ticks=5)
-    record = simulate(experiment, plant=plant)
-    load = 0.9 * experiment.description.weight / 2.0
-    assert record.controller["grf"][:, 0] == pytest.approx([0.0] * 6 + [load] * 6)
+def stuck(settings: dict[str, float]) -> Record:
+    return simulate(compiled(blocked(LILIBOT, settings)))
+
+
+def test_no_foot_feels_a_load_until_all_sensors_stick() -> None:
+    grf, load = stuck({}).controller["grf"], 0.9 * LILIBOT.weight / 2.0
+    # what the sensors deliver from a tick on is read at the next
+    assert (grf[:301] == 0.0).all() and grf[301:] == pytest.approx(load)
 
 
 def test_a_stuck_load_stops_an_oscillator_that_learns_and_not_one_that_does_not() -> None:
-    assert blocked_cost(LILIBOT, {}) == 0.0
-    assert blocked_cost(LILIBOT, {"B_f": 0.0, "B_s": 0.0}) == pytest.approx(
-        0.2 + 0.5 * 2.0, abs=0.2
-    )
+    assert blocked_cost(stuck({})) == 0.0
+    assert blocked_cost(stuck({"B_f": 0.0, "B_s": 0.0})) == pytest.approx(0.2 + 0.5 * 2.0, abs=0.2)
 
 
 def test_without_cma_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -378,15 +404,9 @@ def test_without_cma_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.Monk
         search(tmp_path)
 
 
-def test_workers_make_the_same_search(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_workers_make_the_same_search(tmp_path: Path) -> None:
     pytest.importorskip("cma", reason="the extra search is not installed")
-    n = len(names(4))
-
-    def made_up(candidate: dict[str, float], seed: int, **more: object) -> tuple[float, ...]:
-        return (abs(sum(candidate.values())) + seed,) * n
-
-    monkeypatch.setattr("apnc.studies.search.__main__._costs", made_up)
     for workers in (1, 2):
-        search(tmp_path / str(workers), generations=2, workers=workers)
+        search(tmp_path / str(workers), generations=1, candidates=2, workers=workers)
     one, two = ((tmp_path / name / "search.csv").read_text() for name in "12")
-    assert one == two and one.count("\n") == 1 + 2 * 15
+    assert one == two and one.count("\n") == 1 + 3
