@@ -35,11 +35,18 @@ def lib() -> Any:
     return library()[1]
 
 
-def built(sources: Path, files: Sequence[str], target: Path, *flags: str) -> Any:
-    """A library made from a folder of sources by the system's compiler."""
-    command = [tool("cc", "gcc"), "-std=c11", "-w", "-O1", NO_CONTRACTION, "-fPIC", "-shared"]
-    paths = [sources / name for name in files]
-    run(*command, *flags, f"-I{sources}", *paths, "-o", target, "-lm")
+def objects(sources: Path, files: Sequence[str], folder: Path, *flags: str) -> list[Path]:
+    """C files of a folder compiled by the system's compiler, quickly."""
+    made = [folder / f"{Path(name).stem}.o" for name in files]
+    command = [tool("cc", "gcc"), "-std=c11", "-w", "-O0", NO_CONTRACTION, "-fPIC", *flags]
+    for name, target in zip(files, made, strict=True):
+        run(*command, f"-I{sources}", "-c", sources / name, "-o", target)
+    return made
+
+
+def linked(parts: Sequence[Path], target: Path) -> Any:
+    """The library of compiled files, loaded."""
+    run(tool("cc", "gcc"), "-shared", *parts, "-o", target, "-lm")
     return ffi().dlopen(str(target))
 
 
@@ -99,7 +106,7 @@ def random_fields(random: np.random.Generator, legs: int) -> dict[str, Any]:
             "foot_radius": random.uniform(0.01, 0.02),
             "stiffness": random.uniform(3000.0, 6000.0),
             "damping": random.uniform(20.0, 40.0),
-            "damping_depth": random.uniform(0.0002, 0.001),
+            "damping_depth": random.uniform(0.001, 0.03),
             "friction": random.uniform(0.5, 1.0),
             "friction_speed": random.uniform(0.02, 0.05),
         },
@@ -230,7 +237,8 @@ class CPlant:
 
     def conditions(self, lane: int = 0, **fields: Any) -> None:
         """From now on; see ``conditions``."""
-        self.lib.plant_set_conditions(self.memory, lane, conditions(self.legs, **fields).at)
+        numbers = conditions(self.legs, **fields)  # the arrays it points to must outlive the call
+        self.lib.plant_set_conditions(self.memory, lane, numbers.at)
 
     def command(self, hip: np.ndarray, knee: np.ndarray, lane: int = 0) -> None:
         hips, knees = np.array(hip, float), np.array(knee, float)

@@ -5,6 +5,7 @@ All of them compare with Pinocchio and with the laws in plain numpy, see ``rigid
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from typing import Any, Final
@@ -275,15 +276,68 @@ def fall(lib: Any) -> None:
             plant.put(q, v)
             plant.advance(1e-6)
             assert plant.state() == fell
-    size, center = np.array(list(robot.at.trunk_size)), np.array(list(robot.at.trunk_center))
-    for above, fell in ((1e-4, 0), (-1e-4, 1)):
-        plant = CPlant(legs, library=lib)
-        plant.place(robot, plane(), clearance=1.0)
-        q, v = plant.get()
-        q[2] = above - (center - size / 2.0)[2]
-        plant.put(q, v)
-        plant.advance(1e-9, 1e-9)
-        assert plant.state() == fell
+    body = RigidBody(robot.at)
+    half, center = np.array(list(robot.at.trunk_size)) / 2.0, np.array(list(robot.at.trunk_center))
+    corners = [center + half * signs for signs in itertools.product((-1, 1), repeat=3)]
+    step_up = kerb(-1.0, 0.01)
+    for ground, (pitch, roll) in itertools.product(
+        (plane(), step_up), itertools.product((-0.3, 0.2), repeat=2)
+    ):
+        for above, fell in ((1e-4, 0), (-1e-4, 1)):
+            plant = CPlant(legs, library=lib, contacts=ground.at.contacts if ground.at.kind else 0)
+            plant.place(robot, ground, clearance=1.0)
+            q, v = plant.get()
+            q[4], q[5] = pitch, roll
+            body.move(q, v)
+            lowest = min(float((body.rotation() @ corner)[2]) for corner in corners)
+            q[2] = ground.at.top + above - lowest
+            plant.put(q, v)
+            plant.advance(1e-9, 1e-9)
+            assert plant.state() == fell
+
+
+def tuning(lib: Any) -> None:
+    """Other gains, contact and sensor from the start on are those of a robot built with them."""
+    legs, late = 3, {"latency": 0.02}
+    fields = changed(random_fields(np.random.default_rng(71), legs), servo=late)
+    other = random_fields(np.random.default_rng(72), legs)
+    for name in ("servo", "contact", "sensor"):
+        other[name] = fields[name] | other[name]
+    kept = {"reflected_inertia": fields["servo"]["reflected_inertia"], "slew_rate": 2.0}
+    ball = {"foot_radius": fields["contact"]["foot_radius"]}  # which the start depends on
+    other = changed(other, servo=kept, contact=ball, sensor={"delay": 0.03, "norm": 1})
+    parts = {name: other[name] for name in ("servo", "contact", "sensor")}
+    plants = [CPlant(legs, library=lib, delay=0.03) for _ in range(2)]
+    for plant, robot in zip(plants, (robot_of(fields), robot_of(fields | parts)), strict=True):
+        plant.place(robot, plane(), seed=3, clearance=0.001)
+        plant.conditions(grf_noise=0.1)
+    structs = [ffi().new(f"plant_{name} *", part) for name, part in parts.items()]
+    lib.plant_tune(plants[0].memory, 0, *structs)
+    for tick in range(20):
+        assert same_bits(*(plant.tick(*trot(legs, tick)) for plant in plants))
+
+
+def again(lib: Any) -> None:
+    """A robot put where another one walked is the one that it is in a new plant."""
+    legs = 5
+    for kind, level in ((lib.PLANT_SCALAR, lib.PLANT_BASELINE), *kinds(lib)):
+        used = CPlant(legs, library=lib, kind=kind, level=level, delay=0.03)
+        new = CPlant(legs, library=lib, delay=0.03)
+        last = used.lanes - 1
+        for lane in range(used.lanes):
+            used.place(odd_lane(lane, legs), plane(), lane, seed=lane)
+            used.conditions(lane, damaged=(1,), stuck={2: 3.0})
+        for tick in range(20):
+            for lane in range(used.lanes):
+                used.command(*trot(legs, tick), lane)
+            used.advance()
+        for plant, lane in ((used, last), (new, 0)):
+            plant.place(odd_lane(90, legs), plane(), lane, seed=7)
+        for tick in range(20):
+            for plant, lane in ((used, last), (new, 0)):
+                plant.command(*trot(legs, tick, 2.0), lane)
+                plant.advance()
+            assert same_bits(used.row(last), new.row()), f"kind {kind}, level {level}"
 
 
 def lanes(lib: Any) -> None:
@@ -373,6 +427,7 @@ def side_by_side(
 
 
 CHECKS: Final[dict[str, Check]] = {
-    check.__name__: check for check in (accelerations, forces, motion, sensors, noise, fall, lanes)
+    check.__name__: check
+    for check in (accelerations, forces, motion, sensors, noise, fall, tuning, again, lanes)
 }
 """Every check by its name."""
