@@ -34,6 +34,7 @@ from apnc_plant.conditions import Conditions, named_conditions
 from apnc_plant.ground import Ground, Plane, Surface
 from apnc_plant.robot import load_robot
 from build_fmu.description_parts import ABOUT, STOP_TIME, number
+from exudyn_models.engine import exu
 from exudyn_models.plant import Plant
 
 ROBOT_FILE: Final = "robot.toml"
@@ -46,9 +47,16 @@ TOO_SHORT: Final = 1e-9
 """A step below this [s] changes nothing: importers end runs with what rounding has left."""
 
 
-# In a host that is not Python, PythonFMU makes a thread state for every call and deletes it again.
-# Exudyn keeps the one it was imported with, and would wait for ever for the next: keep it alive.
-ctypes.pythonapi.PyGILState_Ensure()
+@functools.cache
+def _load_exudyn() -> None:
+    """Load Exudyn in a thread state that stays.
+
+    In a host that is not Python, PythonFMU makes a thread state for every call and deletes it
+    again.
+    Exudyn keeps the one it was loaded in, and would wait for ever for the next.
+    """
+    exu()
+    ctypes.pythonapi.PyGILState_Ensure()
 
 
 def hold(*things: object) -> None:
@@ -93,8 +101,9 @@ class PlantSlave(Fmi2Slave):  # type: ignore[misc]  # the package has no types
     GUID: ClassVar = ""
 
     def __init_subclass__(cls) -> None:
-        """Keep the class for ever."""
+        """Keep the class for ever, and load what it walks in."""
         super().__init_subclass__()
+        _load_exudyn()
         hold(cls)
 
     def __init__(self, **kwargs: Any) -> None:
