@@ -141,10 +141,10 @@ INL void advance_tick(void *plant, const plant_ground *const *grounds, double du
     read_sensors(h, &p, spans, load, duration);
     const B speeds = speeds_squared(&p);
     for (int robot = 0; robot < PLANT_ROBOTS_ABREAST; robot++) {
-        if (h->fares[robot] != PLANT_WALKS) continue;
+        if (h->fares[robot] == PLANT_DIVERGED) continue;
         if (!(B_AT(speeds, robot) < TICK_WILD))
             h->fares[robot] = PLANT_DIVERGED;
-        else if (fallen(&p, grounds[robot], &t, robot))
+        else if (h->fares[robot] == PLANT_WALKS && fallen(&p, grounds[robot], &t, robot))
             h->fares[robot] = PLANT_FELL;
     }
 }
