@@ -214,18 +214,17 @@ class Experiment:
 
     def key(self) -> str:
         """Hash of all that a run depends on: robot, parameters, code; 16 hex digits."""
+        told = {"preset", "settings", "method"}  # by the parameters
         content = {
-            **self.to_dict(),
-            "robot": self.description,
+            **{f.name: getattr(self, f.name) for f in fields(self) if f.name not in told},
+            "robot": _hash_of(self.description),
+            "ground": self.ground.to_dict(),
             "parameters": self.parameters(),
             "conditions": [(t, conditions_of(c)) for t, c in steps_of(self.conditions)],
             "fmu": self.fmu and hashlib.sha256(Path(self.fmu).read_bytes()).hexdigest(),
             "code": code_hash(),
         }
-        for name in ("preset", "settings", "method"):
-            del content[name]  # the parameters say it all
-        text = json.dumps(plain(content), sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()[:16]
+        return _digest(content)[:16]
 
     def command(self) -> str:
         """The command line that runs it again.
@@ -274,6 +273,16 @@ def conditions_of(value: str | Conditions) -> Conditions:
 def _name_of(value: str | Conditions) -> str:
     named = (name for name, each in CONDITIONS.items() if value in (name, each))
     return next(named, str(value))
+
+
+def _digest(value: Any) -> str:
+    return hashlib.sha256(json.dumps(plain(value), sort_keys=True).encode()).hexdigest()
+
+
+@lru_cache
+def _hash_of(robot: RobotDescription) -> str:
+    """Asked once per robot: a description takes longer to write down than all the rest."""
+    return _digest(robot)
 
 
 @lru_cache

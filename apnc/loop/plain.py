@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
-from typing import Any, get_args, get_type_hints
+from typing import Any, Final, get_args, get_type_hints
+
+_ALREADY: Final = frozenset((float, str, int, bool, type(None)))
 
 
 def plain(value: Any) -> Any:
     """Data that JSON knows: enumerations by name, objects as tables."""
+    if type(value) in _ALREADY:  # most are
+        return value
     if is_dataclass(value):
         return {f.name: plain(getattr(value, f.name)) for f in fields(value)}
     if isinstance(value, Mapping):

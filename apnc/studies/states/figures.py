@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import conditions_of
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
@@ -51,11 +52,11 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
 
 def scenes(robot: Robot) -> list[Figure]:
     """The run of seed 0 with and without the couplings, over time."""
-    return [
-        figure
+    runs = {
+        words: simulate(TIMELINE.experiment(method, 0, robot=robot, engine=COMPILED))
         for method, words in COUPLINGS.items()
-        for figure in over_time(simulate(TIMELINE.experiment(method, 0, robot=robot)), words)
-    ]
+    }
+    return [figure for words, record in runs.items() for figure in over_time(record, words)]
 
 
 def over_time(record: Record, words: str) -> list[Figure]:

@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from apnc import metrics
+from apnc.loop.engines import COMPILED
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.loop.steps import steps_of
@@ -45,7 +46,9 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
 
 def scenes(robot: Robot) -> list[Figure]:
     """The run of seed 0 along each course."""
-    speeds, turns = (simulate(experiment(course, robot=robot)) for course in ("speeds", "turns"))
+    speeds, turns = (
+        simulate(experiment(course, robot=robot, engine=COMPILED)) for course in ("speeds", "turns")
+    )
     return [speeds_over_time(speeds), turns_over_time(turns), path(turns)]
 
 
