@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from plants import AnyPlant, Kind, in_both
 
 from apnc_plant.conditions import CONDITIONS, PAYLOAD, Conditions, named_conditions
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import PAYLOAD_SIZE, Body, MassProperties, load_robot
-from exudyn_models.plant import Plant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
@@ -18,13 +18,14 @@ QUIET = replace(ROBOT, sensor=replace(ROBOT.sensor, noise=0.0))
 HALF = ROBOT.weight / 2.0
 
 
-def wait(plant: Plant, seconds: float, hip: float = 0.0, knee: float = 0.0) -> None:
+def wait(plant: AnyPlant, seconds: float, hip: float = 0.0, knee: float = 0.0) -> None:
     for _ in range(round(seconds / TICK)):
         plant.advance(np.full(4, hip), np.full(4, knee), TICK)
 
 
-def test_payload_weighs_on_the_feet() -> None:
-    plant = Plant(ROBOT, conditions=named_conditions("C4"))
+@in_both
+def test_payload_weighs_on_the_feet(kind: Kind) -> None:
+    plant = kind(ROBOT, conditions=named_conditions("C4"))
     wait(plant, 2.0)
     assert plant.mass == pytest.approx(2.5 + PAYLOAD)
     load = plant.sample()["foot_force"][:, 2].sum()
@@ -54,14 +55,16 @@ def test_two_halves_of_a_box_are_the_box() -> None:
     np.testing.assert_allclose(whole.inertia, expected)
 
 
-def test_payload_cannot_change_on_the_way() -> None:
-    plant = Plant(ROBOT)
+@in_both
+def test_payload_cannot_change_on_the_way(kind: Kind) -> None:
+    plant = kind(ROBOT)
     with pytest.raises(ValueError, match=r"payload is 1\.25 kg"):
         plant.set_conditions(Conditions(payload=1.25))
 
 
-def test_added_noise_has_its_size() -> None:
-    plant = Plant(QUIET)
+@in_both
+def test_added_noise_has_its_size(kind: Kind) -> None:
+    plant = kind(QUIET)
     wait(plant, 2.0)
     plant.set_conditions(Conditions(grf_noise=0.05))
     readings = []
@@ -74,8 +77,9 @@ def test_added_noise_has_its_size() -> None:
     assert named_conditions("C2").grf_noise > 5 * ROBOT.sensor.noise
 
 
-def test_a_damaged_leg_does_not_follow() -> None:
-    plant = Plant(ROBOT, options=PlantOptions(gravity=0.0, clearance=0.5))
+@in_both
+def test_a_damaged_leg_does_not_follow(kind: Kind) -> None:
+    plant = kind(ROBOT, options=PlantOptions(gravity=0.0, clearance=0.5))
     plant.set_conditions(named_conditions("C3"))
     wait(plant, 1.0, hip=0.2, knee=0.3)
     angles = plant.sample()["joint_angle"]
@@ -87,8 +91,9 @@ def test_a_damaged_leg_does_not_follow() -> None:
     np.testing.assert_allclose(plant.sample()["joint_angle"][0], [0.0, 0.2, 0.3], atol=0.01)
 
 
-def test_stuck_sensors_deliver_their_value_and_the_others_the_load() -> None:
-    plant = Plant(QUIET)
+@in_both
+def test_stuck_sensors_deliver_their_value_and_the_others_the_load(kind: Kind) -> None:
+    plant = kind(QUIET)
     wait(plant, 2.0)
     plant.set_conditions(named_conditions("S2"))
     wait(plant, TICK)
@@ -100,8 +105,9 @@ def test_stuck_sensors_deliver_their_value_and_the_others_the_load() -> None:
     np.testing.assert_allclose(plant.grf(), load, rtol=1e-3)
 
 
-def test_removed_feedback_reads_zero() -> None:
-    plant = Plant(ROBOT, conditions=named_conditions("S3"))
+@in_both
+def test_removed_feedback_reads_zero(kind: Kind) -> None:
+    plant = kind(ROBOT, conditions=named_conditions("S3"))
     wait(plant, 1.0)
     np.testing.assert_array_equal(plant.grf(), 0.0)
     plant.set_conditions(Conditions(dropout=("LH",)))
@@ -110,10 +116,11 @@ def test_removed_feedback_reads_zero() -> None:
     assert (plant.grf()[:3] > 1.0).all()
 
 
-def test_a_held_robot_hangs_until_it_is_let_go() -> None:
-    plant = Plant(QUIET, conditions=named_conditions("S1"))
+@in_both
+def test_a_held_robot_hangs_until_it_is_let_go(kind: Kind) -> None:
+    plant = kind(QUIET, conditions=named_conditions("S1"))
     start = plant.sample()["position"]
-    height = start[2] - Plant(QUIET).sample()["position"][2]
+    height = start[2] - kind(QUIET).sample()["position"][2]
     assert height == pytest.approx(0.02)
     for tick in range(102):
         swing = 0.1 * math.sin(0.15 * tick)
@@ -127,8 +134,9 @@ def test_a_held_robot_hangs_until_it_is_let_go() -> None:
     assert plant.sample()["foot_force"][:, 2].sum() == pytest.approx(ROBOT.weight, rel=1e-3)
 
 
-def test_a_robot_can_be_lifted_while_it_stands() -> None:
-    plant = Plant(QUIET)
+@in_both
+def test_a_robot_can_be_lifted_while_it_stands(kind: Kind) -> None:
+    plant = kind(QUIET)
     wait(plant, 1.0)
     plant.set_conditions(Conditions(held_at=0.03))
     wait(plant, 1.0)
@@ -150,13 +158,14 @@ def test_conditions_go_to_other_processes(name: str) -> None:
     assert pickle.loads(pickle.dumps(CONDITIONS[name])) == CONDITIONS[name]
 
 
-def test_no_feedback_means_every_leg_of_any_robot() -> None:
+@in_both
+def test_no_feedback_means_every_leg_of_any_robot(kind: Kind) -> None:
     legs = ("RF", "RM", "RH", "LF", "LM", "LH")
     assert named_conditions("S3").silent(legs) == legs
     assert Conditions(dropout=("LM",)).silent(legs) == ("LM",)
     assert Conditions().silent(legs) == ()
     named_conditions("S3").check_legs(legs)
-    plant = Plant(load_robot("hexapod"), conditions=named_conditions("S3"))
+    plant = kind(load_robot("hexapod"), conditions=named_conditions("S3"))
     for _ in range(30):
         plant.advance(np.zeros(6), np.zeros(6), TICK)
     np.testing.assert_array_equal(plant.grf(), 0.0)
@@ -187,9 +196,10 @@ def test_zero_is_allowed_everywhere() -> None:
     Conditions(payload=0.0, grf_noise=0.0, stuck={"RF": 0.0}, held_at=0.0)
 
 
-def test_legs_go_by_name() -> None:
+@in_both
+def test_legs_go_by_name(kind: Kind) -> None:
     with pytest.raises(ValueError, match="leg 'RM' is not one of RF, RH, LF, LH"):
-        Plant(ROBOT, conditions=Conditions(damaged=("RM",)))
+        kind(ROBOT, conditions=Conditions(damaged=("RM",)))
 
 
 @pytest.mark.parametrize(
@@ -208,11 +218,12 @@ def test_values_out_of_range_are_refused(values: dict[str, object], message: str
         Conditions(**values)  # type: ignore[arg-type]
 
 
+@in_both
 @pytest.mark.parametrize("latency", [0.004, TICK, 0.04])
-def test_a_command_takes_effect_after_the_latency(latency: float) -> None:
+def test_a_command_takes_effect_after_the_latency(kind: Kind, latency: float) -> None:
     late = replace(ROBOT, servo=replace(ROBOT.servo, latency=latency))
     options = PlantOptions(gravity=0.0, clearance=0.5, step=1e-4)
-    delayed, prompt = Plant(late, options=options), Plant(ROBOT, options=options)
+    delayed, prompt = kind(late, options=options), kind(ROBOT, options=options)
     angles = []
     for plant, length in ((delayed, 0.1), (prompt, 0.1 - latency)):
         ticks = 1 if plant is prompt else 4
@@ -223,11 +234,12 @@ def test_a_command_takes_effect_after_the_latency(latency: float) -> None:
     np.testing.assert_allclose(angles[0], angles[1], atol=1e-3)
 
 
-def test_the_sensor_can_show_the_norm_of_the_force() -> None:
+@in_both
+def test_the_sensor_can_show_the_norm_of_the_force(kind: Kind) -> None:
     prompt = replace(QUIET.sensor, delay=0.0, time_constant=0.0)
     readings = {}
     for component in ("normal", "norm"):
-        plant = Plant(replace(QUIET, sensor=replace(prompt, component=component)))
+        plant = kind(replace(QUIET, sensor=replace(prompt, component=component)))
         for tick in range(90):
             swing = 0.13 * math.sin(0.12 * tick) * np.array([1.0, -1.0, -1.0, 1.0])
             plant.advance(swing, 0.08 * np.cos(swing), TICK)
@@ -238,9 +250,10 @@ def test_the_sensor_can_show_the_norm_of_the_force() -> None:
     assert (readings["norm"] - readings["normal"]).max() > 0.01
 
 
-def test_a_slew_rate_limits_how_fast_a_command_moves() -> None:
+@in_both
+def test_a_slew_rate_limits_how_fast_a_command_moves(kind: Kind) -> None:
     slow = replace(ROBOT, servo=replace(ROBOT.servo, slew_rate=1.0))
-    limited, ramped = Plant(slow), Plant(ROBOT)
+    limited, ramped = kind(slow), kind(ROBOT)
     step = np.full(4, 0.2)
     for tick in range(1, 25):
         limited.advance(step, np.zeros(4), TICK)
