@@ -220,13 +220,21 @@ class Batch:
         lanes: what the runs have in common.
         contacts: the most places of contact of a foot with any of their grounds.
         single: one run alone, its legs side by side, instead of several runs.
+        level: instruction set, see ``plant.h``; the best of this machine if omitted. The bits of a
+            run are the same at each.
 
     Attributes:
         size: number of lanes.
         controller: the FMU that walks the runs.
+
+    Raises:
+        ValueError: the controller is for another number of legs, or this machine does not have the
+            instruction set.
     """
 
-    def __init__(self, lanes: Lanes, contacts: int, *, single: bool = False) -> None:
+    def __init__(
+        self, lanes: Lanes, contacts: int, *, single: bool = False, level: int | None = None
+    ) -> None:
         ffi, lib = library()
         self.controller = controller_library(lanes.fmu)
         if self.controller.n_legs != lanes.n_legs:
@@ -234,7 +242,10 @@ class Batch:
                 f"{lanes.fmu} is for {self.controller.n_legs} legs; the robot has {lanes.n_legs}"
             )
         kind = lib.PLANT_LEGS if single else lib.PLANT_ROBOTS
-        level, Ts = lib.plant_best_level(), 1.0 / lanes.rate
+        best, Ts = lib.plant_best_level(), 1.0 / lanes.rate
+        level = best if level is None else level
+        if not 0 <= level <= best:
+            raise ValueError(f"level is {level}; allowed on this machine: 0 to {best}")
         history = lib.plant_history(lanes.latency, lanes.delay, Ts)
         shape = (kind, level, lanes.n_legs, 0 if lanes.flat else contacts, history)
         self._memory, self._kept = aligned_memory(lib.loop_size(*shape))
