@@ -10,6 +10,7 @@ import math
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -110,8 +111,8 @@ def test_free_fall_is_exact_at_the_default_step() -> None:
     np.testing.assert_allclose(plant.sample()["velocity"], [0.0, 0.0, -9.81 * 0.3], atol=1e-12)
 
 
-def test_forces_are_asked_once_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
-    plant = Plant(ROBOT)
+def steps_asked(plant: Plant, monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """Grows by the length of every step that the forces are asked for."""
     asked, evaluate = [], plant._forces._evaluate
 
     def counted(dt: float, out: Any) -> None:
@@ -120,11 +121,35 @@ def test_forces_are_asked_once_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
         evaluate(dt, out)
 
     monkeypatch.setattr(plant._forces, "_evaluate", counted)
+    return asked
+
+
+def test_forces_are_asked_once_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    plant = Plant(ROBOT)
+    asked = steps_asked(plant, monkeypatch)
     trot(plant, 0)
     assert asked == [STEP] * 16
     trot(plant, 1, parts=2)
     np.testing.assert_allclose(asked, STEP, rtol=1e-12)
     assert len(asked) == 32
+
+
+@pytest.mark.parametrize(
+    ("ticks", "early", "late"), [(0.25, 4, 12), (1.25, 4, 12), (3.3, 5, 12), (2.0, 0, 16)]
+)
+def test_every_tick_is_cut_where_a_command_arrives_the_first_one_too(
+    ticks: float, early: int, late: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # before the start the servos were told the start pose once a tick
+    plant = Plant(replace(ROBOT, servo=replace(ROBOT.servo, latency=ticks * TICK)))
+    asked = steps_asked(plant, monkeypatch)
+    part = ticks % 1.0
+    for tick in range(4):
+        trot(plant, tick)
+        assert len(asked) == early + late
+        np.testing.assert_allclose(asked[:early], part * TICK / max(1, early), rtol=1e-6)
+        np.testing.assert_allclose(asked[early:], (1.0 - part) * TICK / late, rtol=1e-6)
+        asked.clear()
 
 
 def test_a_tick_is_the_sum_of_its_halves() -> None:
