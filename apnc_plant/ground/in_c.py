@@ -56,7 +56,7 @@ class GroundInC:
         self._ground = ground
         self._error: BaseException | None = None
         touch, own = self._touch(ffi)
-        self.flat = ground.flat and not own
+        self.flat = ground.flat
         numbers = Numbers(contacts=1) if self.flat else ground.numbers(radius)
         kind = "PLANT_OWN" if own else "PLANT_PLANE" if self.flat else ground.kind_in_c
         self.contacts = numbers.contacts
@@ -81,7 +81,7 @@ class GroundInC:
         ground = self._ground
         if ground.address:
             return ffi.cast("plant_touch", ground.address), True
-        if ground.has_own_touch:
+        if ground.touches_itself:
             return ffi.callback("plant_touch", self._ask, 0, self._note), True
         if not ground.kind_in_c:
             raise ValueError(

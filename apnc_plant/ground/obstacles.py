@@ -79,8 +79,8 @@ class Ground(Surface):
 
     @property
     def flat(self) -> bool:
-        """Whether there are no obstacles."""
-        return self.roughness == 0.0
+        """Whether there are no obstacles, and no touch function of its own."""
+        return self.roughness == 0.0 and not self.touches_itself
 
     def obstacles(self) -> Array:
         """Balls in one tile, centre in the frame of the ground and radius [m], shape (balls, 4)."""

@@ -26,8 +26,8 @@ class Plane(Surface):
 
     @property
     def flat(self) -> bool:
-        """A plane is flat."""
-        return True
+        """A plane is flat, unless it has a touch function of its own."""
+        return not self.touches_itself
 
     def elevation(self, x: Array, y: Array) -> Array:
         """0 everywhere [m]."""

@@ -96,9 +96,9 @@ class Surface(ABC):
         return 0
 
     @property
-    def has_own_touch(self) -> bool:
-        """Whether its class has a :meth:`touch` of its own."""
-        return type(self).touch is not Surface.touch
+    def touches_itself(self) -> bool:
+        """Whether it has a touch function of its own, in Python or by address."""
+        return type(self).touch is not Surface.touch or self.address != 0
 
     def rotation(self) -> Array:
         """Rotation from ground to world, shape (3, 3); its last column is the normal."""
