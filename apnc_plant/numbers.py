@@ -10,12 +10,14 @@ from apnc_plant.library import library
 from apnc_plant.robot.links import links_of
 from apnc_plant.robot.model import (
     GRAVITY,
+    PAYLOAD_SIZE,
     Contact,
     Leg,
     MassProperties,
     RobotDescription,
     Sensor,
     Servo,
+    Trunk,
 )
 
 SUSPENSION: Final = (5000.0, 200.0, 50.0, 2.0)
@@ -59,7 +61,7 @@ def robot_numbers(
         "legs": len(robot.legs),
         "gravity": gravity,
         "weight": robot.weight,
-        "trunk": _body(robot.trunk.loaded(side_offset, payload)),
+        "trunk": _loaded(robot.trunk, side_offset, payload)[0],
         "trunk_center": list(robot.trunk.center),
         "trunk_size": list(robot.trunk.body.size),
         "servo": servo_numbers(robot.servo),
@@ -69,6 +71,18 @@ def robot_numbers(
         "leg": legs,
     }
     return Numbers(ffi.new("plant_robot *", numbers), (legs,))
+
+
+def _loaded(trunk: Trunk, side_offset: float, payload: float) -> Any:
+    """As ``Trunk.loaded``, by the functions that a robot's FMU calls: the bits are the same."""
+    ffi, lib = library()
+    own, box = ffi.new("plant_body *"), ffi.new("plant_body *")
+    (x, y, z), size = trunk.body.com, trunk.body.size
+    lib.plant_box(trunk.body.mass, size, [x, y + side_offset, z], own)
+    (x, y, z), above = trunk.center, (size[2] + PAYLOAD_SIZE[2]) / 2.0
+    lib.plant_box(payload, PAYLOAD_SIZE, [x, y, z + above], box)
+    lib.plant_join(own, box, own)
+    return own
 
 
 def leg_numbers(leg: Leg) -> dict[str, Any]:

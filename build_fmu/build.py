@@ -149,7 +149,7 @@ def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None
     ready = READY / f"{key}.fmu"
     if ready.is_file():
         return ready
-    path = cache_folder() / f"{key}-{compiler_version() or 'none'}" / f"{MODEL}.fmu"
+    path = cached_path(key, MODEL)
     if not path.is_file():
         everywhere = _ready_everywhere(options)
         # darwin64 alone is one processor's file, and the ready one holds both
@@ -161,6 +161,16 @@ def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None
             content = fmu_bytes(options, progress)
         write_atomically(path, content)
     return path
+
+
+def cached_path(key: str, model: str) -> Path:
+    """Where a built FMU is kept.
+
+    Args:
+        key: what it is made from, but for the compiler.
+        model: name of the model.
+    """
+    return cache_folder() / f"{key}-{compiler_version() or 'none'}" / f"{model}.fmu"
 
 
 def _ready_everywhere(options: BuildOptions) -> Path:

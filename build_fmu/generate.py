@@ -6,6 +6,7 @@ table, which a test checks.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Final
 
@@ -82,8 +83,12 @@ def _wrap(text: str, first: int, rest: int) -> str:
 
 def c_type(name: str) -> str:
     """``KappaRule`` -> ``apnc_kappa_rule``."""
-    snake = "".join(f"_{c.lower()}" if c.isupper() else c for c in name)
-    return f"apnc{snake}"
+    return f"apnc_{snake(name)}"
+
+
+def snake(name: str) -> str:
+    """``KappaRule`` -> ``kappa_rule``."""
+    return "".join(f"_{c.lower()}" if c.isupper() else c for c in name).removeprefix("_")
 
 
 def c_field(v: Variable) -> str:
@@ -117,9 +122,14 @@ def c_row(v: Variable | None) -> str:
 
 
 def row_numbers() -> dict[str, int]:
-    """Numbers of the rows: those that were given once stay, a new row gets the next one."""
-    numbers = dict(ROW_NUMBERS)
-    for v in TABLE:
+    """Numbers of the rows of the controller."""
+    return numbers_of(TABLE, ROW_NUMBERS)
+
+
+def numbers_of(table: Iterable[Variable], given: Mapping[str, int]) -> dict[str, int]:
+    """Numbers of rows: those that were given once stay, a new row gets the next one."""
+    numbers = dict(given)
+    for v in table:
         numbers.setdefault(v.name, len(numbers))
     return numbers
 
@@ -192,6 +202,7 @@ def render() -> dict[str, str]:
     outputs, local = rows(Causality.output), rows(Causality.local)
     numbers, known = row_numbers(), {v.name: v for v in TABLE}
     context = {
+        "command": "build_fmu.generate",
         "numbers": numbers,
         "table": [known.get(name) for name in numbers],
         "inputs": inputs,

@@ -117,13 +117,20 @@ class Model:
         used = {v.unit for v in self.table}
         return tuple(unit for unit in self.types if unit in used)
 
-    def describe(self, v: Variable, element: int) -> str:
+    def describe(self, v: Variable) -> str:
+        """Description of a row, with the items of an enumeration that is an integer."""
+        if v.enumeration and self.type_of(v) is Type.integer:
+            items = ", ".join(f"{item.value} {item.name}" for item in v.enumeration.items)
+            return f"{v.description}: {items}"
+        return v.description
+
+    def describe_entry(self, v: Variable, element: int) -> str:
         """Description of one entry of a row, with the leg or the legs it belongs to."""
         if v.shape is Shape.leg:
-            return f"{self.legs[element]}: {v.description}"
+            return f"{self.legs[element]}: {self.describe(v)}"
         if v.shape is Shape.relation:
-            return f"{self.legs[0]} and {self.legs[element + 1]}: {v.description}"
-        return v.description
+            return f"{self.legs[0]} and {self.legs[element + 1]}: {self.describe(v)}"
+        return self.describe(v)
 
 
 def check_choices(naming: str, fmi: int, enumerations: str) -> None:

@@ -86,7 +86,7 @@ def _scalar_variable(parent: etree._Element, member: Scalar, model: Model) -> No
         "ScalarVariable",
         name=member.name,
         valueReference=str(member.value_reference),
-        description=model.describe(v, member.element),
+        description=model.describe_entry(v, member.element),
         causality=v.causality.value,
         variability=v.variability,
         **initial(v),

@@ -104,7 +104,7 @@ def _add_variable(parent: etree._Element, v: Variable, model: Model) -> None:
         _TAGS[model.type_of(v)],
         name=v.name,
         valueReference=str(model.reference(v)),
-        description=v.description,
+        description=model.describe(v),
         causality=v.causality.value,
         variability=v.variability,
         **initial(v),

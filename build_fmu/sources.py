@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import importlib.resources
 import itertools
+from collections.abc import Iterable
 from typing import Final
 
 from apnc_core.schema import Shape, Value
@@ -24,7 +25,7 @@ _FOLDERS: Final = {CONTROLLER: ("core", "fmi"), PLANT: ("plant", "fmi")}
 _SHARED: Final = ("apnc_names.h", "apnc_real.h", "apnc_row.h")
 """Headers of the core that the shell needs of whatever model."""
 
-_CONFIGURED: Final = ("apnc_config.h", "plant_config.h")
+_CONFIGURED: Final = ("apnc_config.h", "plant_config.h", "robot_config.h")
 """What a build writes its own version of."""
 
 
@@ -55,8 +56,10 @@ def own_files(fmi: int = 2, model: str = CONTROLLER) -> dict[str, bytes]:
 def _is_source(name: str, fmi: int, model: str) -> bool:
     if name in _CONFIGURED or not name.endswith((".c", ".h")):
         return False
-    others = {CONTROLLER, PLANT} - {model}
-    if name.endswith(tuple(f"{other}_model.c" for other in others)):
+    if name.startswith(tuple(f"{other}_" for other in {CONTROLLER, PLANT} - {model})):
+        return False
+    # an FMU has one robot
+    if model == PLANT and name.startswith("robots"):
         return False
     # files named fmi2... and fmi3... belong to that version of the standard only
     return not name.startswith("fmi") or name.startswith(f"fmi{fmi}")
@@ -68,23 +71,46 @@ def c_files(files: dict[str, bytes]) -> list[str]:
 
 
 def config_header(options: BuildOptions, guid: str) -> bytes:
-    """``apnc_config.h``: the build-time choices."""
+    """``apnc_config.h``: the build-time choices of a controller.
+
+    Args:
+        options: what is built.
+        guid: of the FMU; empty for the core alone.
+    """
+    own = _own_defaults(options)
+    return shell_config(options.legs, options.naming, guid, own)
+
+
+def shell_config(legs: int, naming: str, guid: str, more: Iterable[str] = ()) -> bytes:
+    """``apnc_config.h``: the build-time choices of any model.
+
+    Args:
+        legs: number of legs.
+        naming: ``structured`` or ``flat``.
+        guid: of the FMU; empty for a core alone.
+        more: lines of the model's own.
+    """
     lines = [
         "/* Build-time choices, written by the build. */",
         "#ifndef APNC_CONFIG_H",
         "#define APNC_CONFIG_H",
         "",
-        f"#define APNC_LEGS {options.legs}",
-        *(["#define APNC_NAMING_FLAT"] if options.naming == "flat" else []),
+        f"#define APNC_LEGS {legs}",
+        *(["#define APNC_NAMING_FLAT"] if naming == "flat" else []),
         f'#define APNC_GUID "{guid}"',
         # static libraries of two builds share no name; the core alone has names by its legs
-        *([f"#define APNC_PREFIX apnc_{guid[1:9]}_"] if guid else []),
-        *_own_defaults(options),
+        *([f"#define APNC_PREFIX {prefix_of(guid)}"] if guid else []),
+        *more,
         "",
         "#endif",
         "",
     ]
     return "\n".join(lines).encode()
+
+
+def prefix_of(guid: str) -> str:
+    """What the names of a build begin with."""
+    return f"apnc_{guid[1:9]}_"
 
 
 def _own_defaults(options: BuildOptions) -> list[str]:

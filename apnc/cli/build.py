@@ -36,7 +36,7 @@ def build(
     from apnc.loop.parameters import read_parameters
     from apnc_core.settings import parse
     from build_fmu.build import cached_fmu, write_atomically
-    from build_fmu.options import PLATFORMS, BuildOptions, host_platform
+    from build_fmu.options import BuildOptions
     from build_fmu.release import release as build_release
 
     with status("building") as shown:
@@ -46,8 +46,6 @@ def build(
             )
             say(f"{release}: {', '.join(path.name for path in files)}")
             return
-        short = {"all": PLATFORMS, "host": [host_platform()] if "host" in (platform or ()) else []}
-        names = [name for word in platform or ["all"] for name in short.get(word, [word])]
         n_legs, settings = _of_robot(robot, legs, own=preset == OWN_PRESET)
         settings |= read_parameters(params) if params else {}
         settings |= {"method": method} if method else {}
@@ -55,7 +53,7 @@ def build(
         options = BuildOptions(
             legs=n_legs,
             naming=naming,
-            platforms=tuple(dict.fromkeys(names)),
+            platforms=platform_names(platform),
             fmi=fmi,
             preset="lilibot" if preset == OWN_PRESET else preset,
             settings=settings,
@@ -66,6 +64,15 @@ def build(
         path = cached_fmu(options, lambda name: shown.update(f"compiling for {name}"))
         write_atomically(output, path.read_bytes())
     say(f"{output}: {output.stat().st_size / 1000:.0f} kB, {', '.join(options.platforms)}")
+
+
+def platform_names(words: list[str] | None) -> tuple[str, ...]:
+    """Platforms by name; ``all`` and ``host`` stand for what they say, nothing for all."""
+    from build_fmu.options import PLATFORMS, host_platform
+
+    short = {"all": PLATFORMS, "host": [host_platform()] if "host" in (words or ()) else []}
+    names = [name for word in words or ["all"] for name in short.get(word, [word])]
+    return tuple(dict.fromkeys(names))
 
 
 def _of_robot(name: str | None, legs: int | None, *, own: bool) -> tuple[int, dict[str, Setting]]:

@@ -17,15 +17,21 @@ def build_plant(
     robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
     output: Annotated[File, Option(help="File to write; LilibotPlant.fmu if omitted.")] = None,
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
+    fmi: Annotated[int, Option(help="Version of the standard, 2 or 3.")] = 2,
+    platform: Annotated[Texts, Option(help="As win64; host; all if omitted; repeatable.")] = None,
+    enumerations: Annotated[str, Option(help="enumeration, integer.")] = "enumeration",
 ) -> None:
-    """Build the robot in Exudyn as an FMU; where it runs, this package must be installed."""
-    from apnc.system.plant_fmu import plant_fmu, plant_model
+    """Build the robot as an FMU, in C: it needs no Python where it runs."""
+    from apnc.cli.build import platform_names
+    from apnc.system.plant_fmu import PlantBuild, plant_fmu, plant_model
     from build_fmu.cache import write_atomically
 
-    with status("building"):
+    with status("building") as shown:
+        wanted = PlantBuild(robot, naming, fmi, platform_names(platform), enumerations)
         output = writable(output or Path(f"{plant_model(robot)}.fmu"), file=True)
-        write_atomically(output, plant_fmu(robot, naming))
-    say(f"{output}: {output.stat().st_size / 1000:.0f} kB; runs in a Python that has this package")
+        path = plant_fmu(wanted, lambda name: shown.update(f"compiling for {name}"))
+        write_atomically(output, path.read_bytes())
+    say(f"{output}: {output.stat().st_size / 1000:.0f} kB, {', '.join(wanted.platforms)}")
 
 
 def build_system(
@@ -42,9 +48,10 @@ def build_system(
     setting: Annotated[Texts, Option("--set", help="Parameter, NAME=VALUE; repeatable.")] = None,
     memory: Annotated[File, Option(help="Learned gait to start with.")] = None,
     duration: Annotated[float, Option(help="End of the default experiment [s].")] = 45.0,
-    platform: Annotated[Texts, Option(help="Of the controller; this one if omitted.")] = None,
+    platform: Annotated[Texts, Option(help="As for build; this one if omitted.")] = None,
 ) -> None:
     """Build controller and robot, connected: an SSP archive, and a folder that OSP reads too."""
+    from apnc.cli.build import platform_names
     from apnc.cli.walk import experiment_of
     from apnc.system.build import build_system as build
     from apnc.system.structure import system_name
@@ -52,5 +59,5 @@ def build_system(
     with status("building"):
         experiment = experiment_of(context.params | {"mi": str(mi)})
         output = writable(output or Path(f"{system_name(robot)}.ssp"), file=True)
-        folder = build(output, experiment, naming, tuple(platform or ()))
+        folder = build(output, experiment, naming, platform_names(platform or ["host"]))
     say(f"{output}, and unpacked with OspSystemStructure.xml: {folder}/")

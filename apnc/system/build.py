@@ -8,7 +8,7 @@ from apnc.loop.experiment import Experiment
 from apnc.system.osp import OSP_FILE, osp
 from apnc.system.plant_fmu import plant_fmu
 from apnc.system.ssp import SSD_FILE, ssd, ssv, ssv_file
-from apnc.system.structure import structure_of
+from apnc.system.structure import plant_build, structure_of
 from build_fmu.build import cached_fmu
 from build_fmu.cache import write_atomically
 from build_fmu.options import BuildOptions
@@ -24,7 +24,7 @@ def system_files(
     Args:
         experiment: what walks, see ``structure_of``.
         naming: of the variables, ``structured`` or ``flat``.
-        platforms: binaries of the controller; this machine's if empty.
+        platforms: binaries of both FMUs; this machine's if empty.
 
     Raises:
         ValueError: an experiment that a system cannot hold, or FMUs that cannot be built.
@@ -32,17 +32,15 @@ def system_files(
     """
     structure = structure_of(experiment, naming)
     controller, plant = structure.components
-    options = BuildOptions(
-        legs=len(experiment.description.legs),
-        naming=naming,
-        platforms=platforms or (host_platform(),),
-    )
+    machines = platforms or (host_platform(),)
+    legs = len(experiment.description.legs)
+    options = BuildOptions(legs=legs, naming=naming, platforms=machines)
     return {
         SSD_FILE: ssd(structure),
         **{ssv_file(part): ssv(structure, part) for part in structure.components},
         OSP_FILE: osp(structure),
         controller.source: cached_fmu(options).read_bytes(),
-        plant.source: plant_fmu(str(experiment.robot), naming),
+        plant.source: plant_fmu(plant_build(experiment, naming, machines)).read_bytes(),
     }
 
 

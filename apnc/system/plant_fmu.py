@@ -1,51 +1,101 @@
-"""Build the plant FMU: a robot in Exudyn as an FMU 2.0 for co-simulation, by PythonFMU."""
+"""Build the plant FMU: a robot in plain C, its numbers inside, as an FMU 2.0 or 3.0."""
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
-import importlib.util
-import io
 import re
-import sys
-import tempfile
-import zipfile
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from apnc.loop.experiment import Experiment
 from apnc_core import __version__
-from apnc_plant.robot import ROBOTS, load_robot
-from build_fmu.package import zip_fmu
+from apnc_plant.fmu_config import HEADER, robot_config
+from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.row_numbers import ROW_NUMBERS
+from apnc_plant.variables import ENUMERATIONS, TABLE, starts_of
+from build_fmu import sources
+from build_fmu.build import Progress, built, cached_path, write_atomically
+from build_fmu.documentation import documentation, page_of
+from build_fmu.model import Model, RealType
+from build_fmu.platforms import PLATFORMS, check_platforms
 
 MODEL_SUFFIX: Final = "Plant"
 
-_SCRIPT: Final = '''\
-"""{description}."""
+REAL_TYPES: Final = {
+    "1": RealType("Number", "dimensionless number", ""),
+    "s": RealType("Duration", "duration", "Time"),
+    "N": RealType("Force", "force", "Force"),
+    "rad": RealType("Angle", "angle", "Angle"),
+    "kg": RealType("Mass", "mass", "Mass"),
+    "m": RealType("Length", "length, or a coordinate", "Length"),
+    "m/s": RealType("Velocity", "velocity", "Velocity"),
+    "rad/s": RealType("AngularVelocity", "angular velocity", "AngularVelocity"),
+    "N.m": RealType("Torque", "torque", "Torque"),
+    "J": RealType("Energy", "energy", "Energy"),
+    "N.m/rad": RealType("AngularStiffness", "torque per angle", ""),
+    "N.m.s/rad": RealType("AngularDamping", "torque per angular velocity", ""),
+    "kg.m2": RealType("MomentOfInertia", "moment of inertia", "MomentOfInertia"),
+    "N/m": RealType("Stiffness", "force per length", ""),
+    "N.s/m": RealType("Damping", "force per velocity", ""),
+}
+LOG_CATEGORIES: Final = {
+    "logStatusWarning": "steps that are too short",
+    "logStatusError": "wrong calls and values, and a motion that diverged",
+    "logEvents": "life of the instance, and a fall",
+}
 
-try:
-    from apnc.system.plant_slave import PlantSlave, hold
-except ImportError as error:
-    import sys
 
-    raise ImportError(
-        "{model}.fmu needs the package apnc {version} in the Python that runs it, "
-        f"{{sys.executable}} (version {{sys.version.split()[0]}}): {{error}}"
-    ) from error
+@dataclass(frozen=True)
+class PlantBuild:
+    """Choices of one build.
 
-hold(globals())
+    Args:
+        robot: name of a shipped robot, or its file; its numbers travel in the FMU.
+        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``), for FMI 2.0; in FMI 3.0
+            the entries of a row are an array and both are alike.
+        fmi: version of the standard, 2 or 3.
+        platforms: names of the binaries to include; empty for sources only.
+        enumerations: ``enumeration``, or ``integer`` for importers that drop enumerations.
 
+    Raises:
+        ValueError: a choice outside what is allowed, or a robot that cannot be read or that an FMU
+            does not take.
+    """
 
-class {model}(PlantSlave):
-    """The robot of robot.toml."""
+    robot: str = "lilibot"
+    naming: str = "structured"
+    fmi: int = 2
+    platforms: tuple[str, ...] = tuple(PLATFORMS)
+    enumerations: str = "enumeration"
 
-    NAMING = "{naming}"
-    BUILT_BY = "{version}"
-    GUID = "{guid}"
-'''
+    def __post_init__(self) -> None:
+        """Check the choices."""
+        check_platforms(self.platforms)
+        self.model()
 
+    def description(self) -> RobotDescription:
+        """The robot."""
+        return load_robot(self.robot)
 
-class PlantFmuError(ValueError):
-    """A plant FMU that cannot be built, in one line."""
+    def model(self) -> Model:
+        """What the FMU shows."""
+        robot = self.description()
+        return Model(
+            identifier=plant_model(self.robot),
+            about=f"Robot '{robot.name}' on the ground",
+            table=TABLE,
+            numbers=ROW_NUMBERS,
+            legs=tuple(leg.name for leg in robot.legs),
+            starts=starts_of(robot),
+            enumerations=ENUMERATIONS,
+            types=REAL_TYPES,
+            log_categories=LOG_CATEGORIES,
+            step=Experiment().Ts,
+            naming=self.naming,
+            fmi=self.fmi,
+            enumerations_as=self.enumerations,
+        )
 
 
 def plant_model(robot: str) -> str:
@@ -62,48 +112,47 @@ def plant_model(robot: str) -> str:
     return (name if name[:1].isalpha() else f"Robot{name}") + MODEL_SUFFIX
 
 
-def plant_fmu(robot: str = "lilibot", naming: str = "structured") -> bytes:
-    """The plant FMU as bytes; the same arguments give the same bytes.
+def plant_fmu(build: PlantBuild, progress: Progress = lambda platform: None) -> Path:
+    """Path of the plant FMU: from the cache, or built now. The same choices give the same bytes.
 
     Args:
-        robot: name of a shipped robot, or its file; it travels in the FMU.
-        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``).
-
-    Pitfall: it holds no simulator. Where it runs, this package must be importable.
+        build: what to build.
+        progress: called with the platform that is compiled next, if anything is compiled.
 
     Raises:
-        PlantFmuError: PythonFMU is missing.
-        ValueError: another naming, or a robot that cannot be read.
+        BuildError: the compiler failed, or it is needed and not installed.
+        OSError: the cache folder cannot be written.
     """
-    if importlib.util.find_spec("pythonfmu") is None:
-        raise PlantFmuError('PythonFMU is missing: pip install "apnc[system]"')
-    from pythonfmu import FmuBuilder  # noqa: PLC0415  # an extra
+    model, files = build.model(), _files(build)
+    pages = _pages(build, model)
+    key = hashlib.sha256(repr((build, model, __version__)).encode())
+    for name, content in sorted((files | _configured(build, "") | pages).items()):
+        key.update(name.encode() + content)
+    path = cached_path(key.hexdigest()[:16], model.identifier)
+    if not path.is_file():
+        content = built(
+            model, files, lambda guid: _configured(build, guid), pages, build.platforms, progress
+        )
+        write_atomically(path, content)
+    return path
 
-    from apnc.system.plant_variables import plant_variables  # noqa: PLC0415
 
-    description, model = load_robot(robot), plant_model(robot)
-    plant_variables(len(description.legs), naming)  # refuses another naming
-    shipped = ROBOTS / f"{robot}.toml"
-    text = (shipped if shipped.is_file() else Path(robot)).read_bytes()
-    guid = hashlib.sha256(f"{__version__} {naming} {model}\n".encode() + text).hexdigest()[:32]
-    script = _SCRIPT.format(
-        description=f"Robot '{description.name}' in Exudyn",
-        model=model, version=__version__, naming=naming, guid=guid,
-    )  # fmt: skip
-    # one module per build: a process may hold several plant FMUs
-    module = f"plant_{guid[:12]}"
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        (folder / f"{module}.py").write_text(script, encoding="utf-8")
-        (folder / "robot.toml").write_bytes(text)
-        path = list(sys.path)
-        try:
-            with contextlib.redirect_stdout(io.StringIO()):
-                FmuBuilder.build_FMU(
-                    folder / f"{module}.py", folder / "out.fmu", [folder / "robot.toml"]
-                )
-        finally:
-            sys.path[:] = path
-            sys.modules.pop(module, None)
-        with zipfile.ZipFile(folder / "out.fmu") as archive:
-            return zip_fmu({entry: archive.read(entry) for entry in archive.namelist()})
+def _files(build: PlantBuild) -> dict[str, bytes]:
+    own = {HEADER: robot_config(build.description())}
+    return sources.collect(build.fmi, sources.PLANT) | own
+
+
+def _configured(build: PlantBuild, guid: str) -> dict[str, bytes]:
+    legs = len(build.description().legs)
+    lines = ["/* Build-time choices, written by the build. */", "#define PLANT_ONE_ROBOT"]
+    lines += [f"#define PLANT_PREFIX {sources.prefix_of(guid)}"] if guid else []
+    return {
+        "apnc_config.h": sources.shell_config(legs, build.naming, guid),
+        "plant_config.h": ("\n".join(lines) + "\n").encode(),
+    }
+
+
+def _pages(build: PlantBuild, model: Model) -> dict[str, bytes]:
+    robot = build.description()
+    more = {"robot": robot.name, "mass": f"{robot.mass:.4g}"}
+    return documentation(model, page_of("apnc_plant", "documentation_plant.html.j2"), more)

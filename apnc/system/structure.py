@@ -6,18 +6,11 @@ from dataclasses import dataclass
 from typing import Final
 
 from apnc.loop.experiment import Experiment
-from apnc.system.plant_fmu import MODEL_SUFFIX, PlantFmuError, plant_model
-from apnc.system.plant_variables import (
-    COMMANDS,
-    FELL,
-    LOAD,
-    PARAMETERS,
-    UNITS,
-    PlantVariable,
-    plant_variables,
-)
-from apnc_core.schema import Causality, Type
-from apnc_core.variables import Scalar, row, rows, scalars
+from apnc.system.plant_fmu import MODEL_SUFFIX, PlantBuild, plant_model
+from apnc_core.schema import Causality, Scalar, Type
+from apnc_core.variables import row, rows, scalars
+from apnc_plant.variables import COMMANDS, FELL, LOAD, Condition
+from build_fmu.description_parts import UNITS
 from build_fmu.platforms import MODEL
 
 CONTROLLER: Final = "controller"
@@ -25,7 +18,12 @@ PLANT: Final = "plant"
 RESOURCES: Final = "resources"
 
 _CONTROLLER_SHOWS: Final = (*COMMANDS, "o1", "o2", "phi", "kappa")
-_PLANT_SHOWS: Final = (LOAD, "position", "rpy", "velocity")
+_PLANT_SHOWS: Final = (LOAD, "position", "rpy", "velocity", FELL.name)
+_PLANT_STARTS: Final = ("seed", "roughness", "slope", "payload", "condition")
+
+
+class UnfitExperimentError(ValueError):
+    """An experiment that a system cannot hold, in one line."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +89,20 @@ def system_name(robot: str) -> str:
     return plant_model(robot).removesuffix(MODEL_SUFFIX)
 
 
+def plant_build(experiment: Experiment, naming: str, platforms: tuple[str, ...] = ()) -> PlantBuild:
+    """The plant FMU of a system; its condition is a number, which every tool takes.
+
+    Args:
+        experiment: what walks; its robot by name or file.
+        naming: of its variables.
+        platforms: names of the binaries to include.
+    """
+    assert isinstance(experiment.robot, str)
+    return PlantBuild(
+        robot=experiment.robot, naming=naming, platforms=platforms, enumerations="integer"
+    )
+
+
 def structure_of(experiment: Experiment, naming: str = "structured") -> Structure:
     """The system that walks an experiment.
 
@@ -104,34 +116,34 @@ def structure_of(experiment: Experiment, naming: str = "structured") -> Structur
     start values, of which ``MI`` is in the parameter set.
 
     Raises:
-        PlantFmuError: an experiment that a system cannot hold.
+        UnfitExperimentError: an experiment that a system cannot hold.
+        ValueError: as ``PlantBuild``.
     """
     _refuse(experiment)
-    assert isinstance(experiment.robot, str)
-    model, n_legs = plant_model(experiment.robot), len(experiment.description.legs)
+    model, n_legs = plant_build(experiment, naming).model(), len(experiment.description.legs)
     controller = [
         Connector(s.name, s.variable.causality, s.variable.type, s.variable.unit)
         for s in scalars(n_legs, naming)
         if s.variable.name in (LOAD, *_CONTROLLER_SHOWS)
     ]
     plant = [
-        Connector(v.name, v.causality, v.type, v.unit)
-        for v in plant_variables(n_legs, naming)
-        if v.causality is Causality.input or _is_shown(v, naming)
+        Connector(s.name, s.variable.causality, s.variable.type, s.variable.unit)
+        for s in model.scalars()
+        if s.variable.name.split(".")[0] in (*COMMANDS, *_PLANT_SHOWS)
     ]
     loads = [row(LOAD).scalar_name(leg, naming) for leg in range(n_legs)]
     commands = [row(c).scalar_name(leg, naming) for c in COMMANDS for leg in range(n_legs)]
     return Structure(
-        name=system_name(experiment.robot),
+        name=model.identifier.removesuffix(MODEL_SUFFIX),
         components=(
             Component(CONTROLLER, f"{RESOURCES}/{MODEL}.fmu", tuple(controller)),
-            Component(PLANT, f"{RESOURCES}/{model}.fmu", tuple(plant)),
+            Component(PLANT, f"{RESOURCES}/{model.identifier}.fmu", tuple(plant)),
         ),
         connections=(
             *(((PLANT, name), (CONTROLLER, name)) for name in loads),
             *(((CONTROLLER, name), (PLANT, name)) for name in commands),
         ),
-        starts=(*_controller_starts(experiment, naming), *_plant_starts(experiment)),
+        starts=(*_controller_starts(experiment, naming), *_plant_starts(experiment, naming)),
         step=experiment.Ts,
         stop=experiment.duration,
     )
@@ -148,16 +160,7 @@ def _refuse(experiment: Experiment) -> None:
         ("ground", experiment.ground, experiment.ground.to_dict() == level, "the level plane"),
     ):
         if not fits:
-            raise PlantFmuError(f"{name} = {value} of a system; allowed: {allowed}")
-
-
-def _is_shown(v: PlantVariable, naming: str) -> bool:
-    """Whether an output of the plant belongs to one of the channels that the system shows."""
-    words = v.name.replace("_", ".") if naming == "flat" else v.name
-    return v is FELL or any(
-        words == channel or words.startswith(f"{channel}.") or words.endswith(f".{channel}")
-        for channel in _PLANT_SHOWS
-    )
+            raise UnfitExperimentError(f"{name} = {value} of a system; allowed: {allowed}")
 
 
 def _controller_starts(experiment: Experiment, naming: str) -> list[Start]:
@@ -184,13 +187,13 @@ def _controller_starts(experiment: Experiment, naming: str) -> list[Start]:
     return starts
 
 
-def _plant_starts(experiment: Experiment) -> list[Start]:
-    """The parameters of the plant; the condition only if something is wrong with the robot."""
-    own = {"seed": experiment.seed, "condition": experiment.conditions}
-    starts = []
-    for v in PARAMETERS:
-        value = own.get(v.name, v.start)
-        assert isinstance(value, float | int | str)
-        if v.type != "String" or value != v.start:
-            starts.append(Start(PLANT, v.name, v.type, value, v.unit))
-    return starts
+def _plant_starts(experiment: Experiment, naming: str) -> list[Start]:
+    """What a walk sets; the numbers of the robot are in its FMU."""
+    assert isinstance(experiment.conditions, str)
+    own = {"seed": experiment.seed, "condition": Condition[experiment.conditions].value}
+    model = plant_build(experiment, naming).model()
+    return [
+        Start(PLANT, name, model.type_of(v), own.get(name, model.start(v)[0]), v.unit)
+        for name in _PLANT_STARTS
+        for v in (model.row(name),)
+    ]

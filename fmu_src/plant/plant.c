@@ -9,14 +9,20 @@
 #include "targets.h"
 
 static const plant_kernel *kernel_of(int32_t kind, int32_t level) {
-#ifdef PLANT_HAS_X86
-    if (kind == PLANT_LEGS && level >= PLANT_AVX2) return &plant_kernel_legs_avx2;
+#ifdef PLANT_ONE_ROBOT
+    if (kind == PLANT_ROBOTS) return NULL;
+#elif defined(PLANT_HAS_X86)
     if (kind == PLANT_ROBOTS && level == PLANT_AVX512) return &plant_kernel_robots_avx512;
     if (kind == PLANT_ROBOTS && level == PLANT_AVX2) return &plant_kernel_robots_avx2;
 #endif
+#ifdef PLANT_HAS_X86
+    if (kind == PLANT_LEGS && level >= PLANT_AVX2) return &plant_kernel_legs_avx2;
+#endif
+#if defined(PLANT_HAS_VECTORS) && !defined(PLANT_ONE_ROBOT)
+    if (kind == PLANT_ROBOTS) return &plant_kernel_robots;
+#endif
 #ifdef PLANT_HAS_VECTORS
     if (kind == PLANT_LEGS) return &plant_kernel_legs;
-    if (kind == PLANT_ROBOTS) return &plant_kernel_robots;
 #endif
     (void)level;
     return kind >= PLANT_SCALAR && kind <= PLANT_ROBOTS ? &plant_kernel_scalar : NULL;
@@ -94,6 +100,12 @@ void plant_create(void *memory, int32_t kind, int32_t level, int32_t legs, int32
         ((plant_header *)memory)->fares[robot] = PLANT_DIVERGED; /* nobody is there */
     if (h.width > 1)
         plant_create((char *)memory + h.scratch, PLANT_SCALAR, PLANT_BASELINE, legs, contacts, 1);
+}
+
+void plant_use_level(void *plant, int32_t level) {
+    plant_header *h = (plant_header *)plant;
+    const plant_kernel *now = kernel_of(h->kind, h->level), *then = kernel_of(h->kind, level);
+    if (now && then && now->width == then->width) h->level = level;
 }
 
 int32_t plant_intact(const void *memory, int32_t kind, int32_t level, int32_t legs,

@@ -18,6 +18,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "plant_names.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -169,6 +171,10 @@ int32_t plant_history(double latency, double delay, double Ts);
  * plant_size was asked with. */
 void plant_create(void *memory, int32_t kind, int32_t level, int32_t legs, int32_t contacts,
                   int32_t history);
+
+/* Go on with the instructions of another level, where they lay out a plant alike: PLANT_SCALAR and
+ * PLANT_LEGS always do. */
+void plant_use_level(void *plant, int32_t level);
 
 /* Whether bytes that were stored, and may have been changed since, are a plant that plant_create
  * made with these arguments: such a plant can be advanced, whatever its numbers are. */

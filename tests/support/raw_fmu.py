@@ -57,9 +57,9 @@ class Library:
     calls: ctypes.CDLL
 
     @classmethod
-    def load(cls, folder: Path) -> Library:
+    def load(cls, folder: Path, model: str = MODEL) -> Library:
         platform = PLATFORMS[host_platform()]
-        calls = ctypes.CDLL(str(folder / "binaries" / platform.folder / (MODEL + platform.suffix)))
+        calls = ctypes.CDLL(str(folder / "binaries" / platform.folder / (model + platform.suffix)))
         for name, arguments in PROTOTYPES.items():
             getattr(calls, name).argtypes = arguments
         for name in ("fmi2GetVersion", "fmi2GetTypesPlatform"):

@@ -174,9 +174,6 @@ HOSTS: Final[dict[str, Callable[[Path, float], tuple[Array, float]]]] = {
 
 def main(words: list[str]) -> None:
     host, folder, seconds, out = words
-    from exudyn_models.engine import exu
-
-    exu()  # takes seconds that are no simulation
     rows, wall = HOSTS[host](Path(folder), float(seconds))
     columns = np.cumsum([4, 4, 4])
     o1, o2, grf, position = np.split(rows, columns, axis=1)

@@ -8,14 +8,10 @@ import os
 import shutil
 import subprocess
 import sys
-import sysconfig
-import threading
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-pytest.importorskip("pythonfmu", reason="pythonfmu is missing (extra `system`)")
 
 from apnc import Experiment, metrics
 from apnc.system.build import build_system
@@ -67,34 +63,26 @@ def test_the_trot_forms(host: str, folder: Path, tmp_path: Path) -> None:
 
 def test_it_walks_in_a_program_that_is_not_python(folder: Path, tmp_path: Path) -> None:
     spec = importlib.util.find_spec("ecospy")
-    shared = Path(sysconfig.get_config_var("LIBDIR")) / sysconfig.get_config_var("INSTSONAME")
     if spec is None or spec.origin is None or sys.platform != "linux":
         pytest.skip("ecospy is missing")
     if shutil.which("unzip") is None:
         pytest.skip("Ecos calls the program unzip, which is missing")
-    if shared.suffix == ".a" or not shared.is_file():
-        pytest.skip(f"{shared} is missing: this Python is not a shared library")
     program = shutil.copy(Path(spec.origin).parent / "binaries" / "ecos", tmp_path)
     Path(program).chmod(0o755)
     if subprocess.run([program, "--version"], capture_output=True, check=False).returncode != 0:
         pytest.skip("ecos does not start: Debian's libtbb12 is missing")
-    places = os.pathsep.join(filter(None, sys.path))
     words = ["simulate", "--path", f"{folder}.ssp", "--parameterSet", "Lilibot"]
     words += ["--stopTime", f"{SECONDS:g}", "--stepSize", repr(1 / 60)]
-    with subprocess.Popen(
+    done = subprocess.run(
         [program, *words],
         cwd=tmp_path,
-        stdout=subprocess.PIPE,
+        env={"PATH": os.environ["PATH"]},
+        capture_output=True,
         text=True,
-        env=os.environ | {"LD_PRELOAD": str(shared), "PYTHONPATH": places},
-    ) as process:
-        assert process.stdout is not None
-        deadlock = threading.Timer(200.0, process.kill)
-        deadlock.start()
-        said = next((line for line in process.stdout if "Wrote CSV" in line), "")
-        deadlock.cancel()
-        process.kill()  # older Pythons wait for ever where they end in another thread
-    assert said
+        check=False,
+        timeout=200,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
     with (tmp_path / "Lilibot.csv").open() as file:
         last = list(csv.DictReader(file, skipinitialspace=True))[-1]
     flat = "leg1_grf" in " ".join(last)

@@ -4,56 +4,71 @@ from __future__ import annotations
 
 import math
 import re
-import subprocess
-import sys
+import shutil
 import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import fmpy
 import numpy as np
 import pytest
+from fmpy import fmi3
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
-from plant_probe import LOADS, POSITION, TS, plant
+from lxml import etree, html
+from plant_probe import LOADS, POSITION, TS, FMU2Plant, plant
 from stiff import stiff_robot
-
-pytest.importorskip("pythonfmu", reason="pythonfmu is missing (extra `system`)")
 
 from apnc import Experiment, simulate
 from apnc.loop.fmu_controller import FmuController
-from apnc.system.plant_fmu import plant_fmu, plant_model
-from apnc_core.schema import Causality
+from apnc.system.plant_fmu import PlantBuild, plant_fmu, plant_model
+from apnc_core.schema import Causality, Type
 from apnc_core.variables import scalars
-from build_fmu.package import zip_fmu
+from apnc_plant import generate
+from apnc_plant.channels import PLANT_CHANNELS
+from apnc_plant.compiled import Plant
+from apnc_plant.conditions import CONDITIONS
+from apnc_plant.ground import Ground, Plane
+from apnc_plant.robot import ROBOTS, load_robot
+from apnc_plant.variables import COMMANDS, TABLE, Condition
+from build_fmu.platforms import host_platform
 
+HOST = (host_platform(),)
 # legs that swing one after the other, so that the robot moves
 WAVE = [0.1, -0.1, 0.2, -0.2, 0.0, 0.1, 0.0, 0.1]
 
 
 @pytest.fixture(scope="module")
-def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    file = tmp_path_factory.mktemp("plant") / "LilibotPlant.fmu"
-    file.write_bytes(plant_fmu())
-    return file
+def path() -> Path:
+    return plant_fmu(PlantBuild(platforms=HOST))
+
+
+def description_of(file: Path) -> etree._Element:
+    with zipfile.ZipFile(file) as archive:
+        return etree.fromstring(archive.read("modelDescription.xml"))
+
+
+def test_generated_files_are_those_of_the_table() -> None:
+    assert generate.outdated() == []
 
 
 @pytest.mark.parametrize("naming", ["structured", "flat"])
-@pytest.mark.parametrize("robot", ["lilibot", "hexapod"])
-def test_its_names_and_units_are_those_of_the_controller(
-    robot: str, naming: str, tmp_path: Path
-) -> None:
-    file = tmp_path / "Plant.fmu"
-    file.write_bytes(plant_fmu(robot, naming))
+@pytest.mark.parametrize("robot", ["lilibot", "hexapod", "octopod"])
+def test_its_names_and_units_are_those_of_the_controller(robot: str, naming: str) -> None:
+    file = plant_fmu(PlantBuild(robot, naming, platforms=()))
     assert validate_fmu(str(file)) == []
     description = fmpy.read_model_description(str(file))
     assert description.modelName == plant_model(robot)
     shown = {v.name: v for v in description.modelVariables}
-    legs = {"lilibot": 4, "hexapod": 6}[robot]
+    legs = len(load_robot(robot).legs)
     for s in scalars(legs, naming):
         if s.variable.name == "grf":
             assert shown[s.name].causality == "output"
             assert shown[s.name].unit == s.variable.unit
-        if s.variable.name in ("theta_hip", "theta_knee"):
+        if s.variable.name in COMMANDS:
             assert shown[s.name].causality == Causality.input
             assert shown[s.name].unit == s.variable.unit
             assert float(shown[s.name].start) == 0.0
@@ -63,12 +78,73 @@ def test_its_names_and_units_are_those_of_the_controller(
         assert all(re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) for name in shown)
 
 
-def test_the_same_build_is_the_same_file(path: Path) -> None:
-    assert plant_fmu() == path.read_bytes()
+def test_every_channel_of_a_record_is_an_output() -> None:
+    outputs = [v.name for v in TABLE if v.causality is Causality.output]
+    columns = [column for channel in PLANT_CHANNELS for column in replace(
+        channel, per_leg=False).columns(())]  # fmt: skip
+    assert outputs == [*columns, "fell"]
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_it_follows_the_schema_of_the_standard(fmi: int) -> None:
+    file = plant_fmu(PlantBuild(fmi=fmi, platforms=()))
+    assert validate_fmu(str(file)) == []
+    schemas = Path(fmpy.__file__).parent / "schema" / f"fmi{fmi}"
+    schema = etree.XMLSchema(etree.parse(str(schemas / f"fmi{fmi}ModelDescription.xsd")))
+    schema.assertValid(description_of(file))
+
+
+def test_start_values_are_those_of_the_robot_file() -> None:
+    robot = load_robot("octopod")
+    found = {
+        v.name: v.start
+        for v in fmpy.read_model_description(
+            str(plant_fmu(PlantBuild("octopod", platforms=())))
+        ).modelVariables
+    }
+    for part in ("servo", "contact", "sensor"):
+        for name, value in vars(getattr(robot, part)).items():
+            shown = found[f"{part}.{name}"]
+            assert shown == "1" if name == "component" else float(shown) == value
+
+
+def test_a_number_that_an_fmu_does_not_take_is_named(tmp_path: Path) -> None:
+    file = tmp_path / "stiff.toml"
+    file.write_text(stiff_robot())
+    with pytest.raises(ValueError, match=r"contact\.stiffness is 1e\+300 in robot 'lilibot'"):
+        PlantBuild(str(file))
+
+
+def test_enumerations_can_be_integers() -> None:
+    file = plant_fmu(PlantBuild(platforms=(), enumerations="integer"))
+    condition = description_of(file).find(".//ScalarVariable[@name='condition']")
+    assert condition.find("Integer").attrib == {"min": "1", "max": "7", "start": "1"}
+    assert condition.get("description").endswith("1 C1, 2 C2, 3 C3, 4 C4, 5 S1, 6 S2, 7 S3")
+
+
+def test_its_page_names_every_variable(path: Path) -> None:
+    with zipfile.ZipFile(path) as archive:
+        page = html.fromstring(archive.read("documentation/index.html"))
+        names = set(archive.namelist())
+    shown = {code.text for code in page.iter("code")}
+    for v in TABLE:
+        several = f"leg[1].{v.name} ... leg[4].{v.name}"
+        assert (v.name if v.count(4) == 1 else several) in shown
+    assert {"model.png", "documentation/licenses/license.txt"} <= names
+    assert page.find(".//h1").text == "LilibotPlant"
+
+
+def test_the_same_build_is_the_same_file(
+    path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = path.read_bytes()
+    monkeypatch.setenv("APNC_CACHE", str(tmp_path))
+    again = plant_fmu(PlantBuild(platforms=HOST))
+    assert again.is_relative_to(tmp_path) and again.read_bytes() == first
 
 
 def test_a_plain_loop_is_the_direct_loop_bit_for_bit(path: Path, fmu4: Path) -> None:
-    experiment = Experiment(mi=0.15, seed=3, duration=2.0)
+    experiment = Experiment(mi=0.15, seed=3, duration=5.0, engine="compiled")
     record = simulate(experiment)
     parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
     places, loads = [], []
@@ -82,6 +158,45 @@ def test_a_plain_loop_is_the_direct_loop_bit_for_bit(path: Path, fmu4: Path) -> 
             robot.step()
     np.testing.assert_array_equal(places, record.plant["position"])
     np.testing.assert_array_equal(loads, record.plant["grf"])
+
+
+STATES = [
+    ({"seed": 5, "roughness": 0.7, "slope": 0.05}, "C1"),
+    ({"seed": 2**31 - 1, "roughness": 1.0, "slope": -0.1, "payload": 0.37}, "C4"),
+    ({"seed": 1}, "C2"),
+    ({"seed": 2}, "C3"),
+    ({"seed": 3, "slope": 0.1}, "S1"),
+    ({"seed": 4, "roughness": 0.4}, "S2"),
+    ({"seed": 6, "payload": 1.1}, "S3"),
+]
+
+
+@pytest.mark.parametrize(("chosen", "condition"), STATES, ids=[name for _, name in STATES])
+def test_every_output_is_that_of_the_plant_stepped_directly(
+    path: Path, chosen: dict[str, float], condition: str
+) -> None:
+    conditions = CONDITIONS[condition]
+    payload = conditions.payload + chosen.get("payload", 0.0)
+    slope, seed = chosen.get("slope", 0.0), int(chosen["seed"])
+    rough = chosen.get("roughness", 0.0)
+    direct = Plant(
+        load_robot("lilibot"),
+        seed,
+        ground=Ground(slope=slope, roughness=rough, seed=seed) if rough else Plane(slope=slope),
+        conditions=replace(conditions, payload=payload),
+    )
+    names = [c for channel in PLANT_CHANNELS for c in channel.columns(
+        tuple(f"leg[{i}]" for i in range(1, 5)))]  # fmt: skip
+    commands = np.random.default_rng(seed).uniform(-0.2, 0.2, (60, 2, 4))
+    with plant(path) as robot:
+        robot.start(**chosen, condition=Condition[condition].value)
+        for hip, knee in commands:
+            expected = direct.sample()
+            values = np.concatenate([expected[c.name].ravel() for c in PLANT_CHANNELS])
+            np.testing.assert_array_equal(robot.get(names), values)
+            robot.command([*hip, *knee])
+            robot.step()
+            direct.advance(hip, knee, TS)
 
 
 def place_after(path: Path, steps: list[float], seed: int = 0, **parameters: float) -> list[float]:
@@ -107,27 +222,92 @@ def test_parameters_act(path: Path) -> None:
     assert place_after(path, [TS] * 30, seed=1) != plain
     assert place_after(path, [TS] * 30, payload=1.0)[2] < plain[2]
     assert place_after(path, [TS] * 30, slope=0.1) != plain
+    assert place_after(path, [TS] * 30, step=1 / 1920) != plain
     # with this seed feet stand on obstacles
-    level, rough = (place_after(path, [TS] * 30, seed=7, roughness=r)[2] for r in (0.0, 1.0))
+    level, rough = (place_after(path, [TS] * 30, seed=3, roughness=r)[2] for r in (0.0, 1.0))
     assert rough > level + 1e-3
 
 
-def test_a_condition_may_come_while_it_walks(path: Path) -> None:
+ROBOTS_OWN = [v for v in TABLE if v.name.split(".")[0] in ("servo", "contact", "sensor")]
+
+
+@pytest.mark.parametrize("v", ROBOTS_OWN, ids=lambda v: v.name)
+def test_a_number_of_the_robot_acts_as_in_its_file(path: Path, v: Any) -> None:
+    part, name = v.name.split(".")
+    robot = load_robot("lilibot")
+    old = getattr(getattr(robot, part), name)
+    new: Any = {"component": "norm", "latency": 0.011, "slew_rate": 2.0}.get(
+        name, 1.3 * old if isinstance(old, float) else old
+    )
+    own = replace(robot, **{part: replace(getattr(robot, part), **{name: new})})
+    direct = Plant(own, 1)
+    given = v.enumeration.items[new].value if v.enumeration else new
+    starts = [{v.name: given}] if v.variability == "fixed" else [{v.name: given}, {}]
+    for start in starts:
+        with plant(path) as fmu:
+            fmu.start(seed=1, **start)
+            if not start:  # a tunable one may as well be set before the first step
+                fmu.put(v.name, given)
+            fmu.command(WAVE)
+            for _ in range(30):
+                fmu.step()
+            seen = fmu.get([*POSITION, *LOADS])
+        if start is starts[0]:
+            for _ in range(30):
+                direct.advance(np.array(WAVE[:4]), np.array(WAVE[4:]), TS)
+        sample = direct.sample()
+        assert seen == [*sample["position"], *sample["grf"]]
+
+
+def test_tuning_while_it_walks_acts_from_the_next_step_on(path: Path) -> None:
+    with plant(path) as tuned, plant(path) as other:
+        for robot in (tuned, other):
+            robot.start()
+            robot.command(WAVE)
+            for _ in range(20):
+                robot.step()
+        before = tuned.get(POSITION)
+        tuned.put("contact.friction", 0.1)
+        assert tuned.get(POSITION) == before
+        tuned.step()
+        other.step()
+        assert tuned.get(POSITION) != other.get(POSITION)
+
+
+def test_a_condition_may_come_and_go_while_it_walks(path: Path) -> None:
     with plant(path) as robot:
         robot.start()
         for _ in range(30):
             robot.step()
         assert all(load > 1.0 for load in robot.get(LOADS))
-        robot.put("condition", "S3")
+        robot.put("condition", Condition.S3.value)
         robot.step()
         assert robot.get(LOADS) == [0.0] * 4
+        robot.put("condition", Condition.C1.value)
+        robot.step()
+        assert all(load > 1.0 for load in robot.get(LOADS))
+
+
+def test_a_held_trunk_stays_where_it_is_when_something_else_is_tuned(path: Path) -> None:
+    with plant(path) as one, plant(path) as other:
+        for robot in (one, other):
+            robot.start(condition=Condition.S1.value)
+            robot.command(WAVE)
+            for _ in range(20):
+                robot.step()
+        one.put("contact.friction", 0.8)  # as it is
+        for _ in range(20):
+            one.step()
+            other.step()
+        assert one.get(POSITION) == other.get(POSITION)
 
 
 def test_two_instances_do_not_share_a_thing(path: Path) -> None:
-    alone = [place_after(path, [TS] * 20, seed=s) for s in (1, 2)]
+    chosen = [{"seed": 1, "roughness": 0.5}, {"seed": 2, "roughness": 1.0}]
+    alone = [place_after(path, [TS] * 20, **c) for c in chosen]
     with plant(path) as one, plant(path) as other:
-        for robot, seed in ((one, 1), (other, 2)):
-            robot.start(seed=seed)
+        for robot, c in ((one, chosen[0]), (other, chosen[1])):
+            robot.start(**c)
             robot.command(WAVE)
         for _ in range(20):
             one.step()
@@ -137,7 +317,7 @@ def test_two_instances_do_not_share_a_thing(path: Path) -> None:
 
 def test_reset_starts_it_again(path: Path) -> None:
     with plant(path) as robot:
-        robot.start(seed=5, payload=0.5)
+        robot.start(seed=5, payload=0.5, roughness=1.0)
         robot.command(WAVE)
         for _ in range(10):
             robot.step()
@@ -155,97 +335,214 @@ def test_it_falls_and_says_so(path: Path) -> None:
         assert not robot.fell
         for _ in range(240):
             robot.step()
-        assert robot.fell
-        lies = robot.get(POSITION)
+        assert robot.fell and robot.messages[-1].startswith("fell at ")
+        lies = robot.get([*POSITION, *LOADS])
+        robot.command([0.3] * 8)
         robot.step()
-        assert robot.get(POSITION) == lies
+        assert robot.get([*POSITION, *LOADS]) == lies and robot.fell
 
 
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
-        ("condition", "C9", "'C9' are not one of C1"),
-        ("payload", -1.0, "payload = -1.0 is not in 0 ... 100"),
-        ("slope", math.nan, "slope = nan is not in"),
-        ("seed", -1, "seed = -1 is not in 0"),
+        ("condition", 8, "condition = 8 is out of range: 1 ... 7 is allowed"),
+        ("condition", 0, "condition = 0 is out of range"),
+        ("payload", -1.0, "payload = -1 is out of range: 0 ... 100 is allowed"),
+        ("slope", math.nan, "slope = nan is out of range"),
+        ("seed", -1, "seed = -1 is out of range"),
+        ("step", 0.0, "step = 0 is out of range"),
+        ("servo.stiffness", math.inf, "servo.stiffness = inf is out of range"),
     ],
 )
-def test_a_wrong_parameter_is_a_message(
-    name: str, value: float | str, words: str, path: Path
+def test_a_wrong_parameter_is_an_error_with_a_message(
+    name: str, value: float, words: str, path: Path
 ) -> None:
     with plant(path) as robot:
-        with pytest.raises(FMICallException):
-            robot.start(**{name: value})
+        robot.setupExperiment(startTime=0.0)
+        robot.enterInitializationMode()
+        robot.put(name, value)
+        with pytest.raises(FMICallException, match="error"):
+            robot.get(POSITION)
+        with pytest.raises(FMICallException, match="error"):
+            robot.exitInitializationMode()
         assert words in robot.messages[-1]
+        start = next(v.start for v in TABLE if v.name == name) or 1
+        robot.put(name, type(value)(start))
+        robot.exitInitializationMode()
+        robot.step()
 
 
-def test_a_fixed_parameter_is_fixed(path: Path) -> None:
+def test_parameters_between_steps(path: Path) -> None:
     with plant(path) as robot:
         robot.start()
-        with pytest.raises(FMICallException):
-            robot.put("payload", 1.0)
-        assert "payload is fixed" in robot.messages[-1]
+        for name, value, words in (
+            ("payload", 1.0, "payload is fixed"),
+            ("contact.friction", -1.0, "contact.friction = -1 is out of range"),
+            ("condition", 9, "condition = 9 is out of range"),
+            ("condition", Condition.C4.value, "condition = 4 has a payload of 1.25 kg, but the "
+             "robot started with 0 kg"),
+            ("position.x", 0.0, "position.x is an output"),
+        ):  # fmt: skip
+            with pytest.raises(FMICallException, match="error"):
+                robot.put(name, value)
+            assert words in robot.messages[-1]
+        robot.step()
 
 
-def test_wrong_steps_are_messages_and_it_goes_on(path: Path) -> None:
+def test_a_condition_of_legs_that_a_robot_has_not_is_an_error(tmp_path: Path) -> None:
+    file = tmp_path / "renamed.toml"
+    file.write_text((ROBOTS / "lilibot.toml").read_text().replace('"RF"', '"FR"'))
+    with plant(plant_fmu(PlantBuild(str(file), platforms=HOST))) as robot:
+        with pytest.raises(FMICallException, match="error"):
+            robot.start(condition=Condition.C3.value)
+        assert robot.messages[-1] == "condition = 3 is of leg RF, which this robot has not"
+        robot.put("condition", Condition.S3.value)
+        robot.exitInitializationMode()
+        with pytest.raises(FMICallException, match="error"):
+            robot.put("condition", Condition.S2.value)
+
+
+def test_wrong_steps_are_errors_with_a_message_and_it_goes_on(path: Path) -> None:
     with plant(path) as robot:
         robot.start()
         robot.put("leg[2].theta_knee", math.nan)
         for _ in range(4):
-            with pytest.raises(FMICallException, match="discard"):
+            with pytest.raises(FMICallException, match="error"):
                 robot.step()
-            assert robot.messages[-1] == "leg[2].theta_knee = nan; allowed: a finite angle"
+            assert robot.messages[-1] == "leg[2].theta_knee = nan is not a finite angle"
         robot.put("leg[2].theta_knee", 0.0)
         robot.step()
-        robot.time = 7.0
-        with pytest.raises(FMICallException, match="discard"):
+        for t, h, words in (
+            (7.0, TS, "step starts at 7 s, but the one before ended at"),
+            (TS, -TS, "the step not negative"),
+            (TS, math.inf, "must be finite"),
+            (TS, 1e9, "has more than 1e+07 ticks of"),
+        ):
+            with pytest.raises(FMICallException, match="error"):
+                robot.doStep(t, h)
+            assert words in robot.messages[-1]
+        robot.step()
+
+
+def test_a_step_beyond_the_stop_time_is_an_error(path: Path) -> None:
+    with plant(path) as robot:
+        robot.setupExperiment(startTime=0.0, stopTime=TS)
+        robot.enterInitializationMode()
+        robot.exitInitializationMode()
+        robot.step()
+        with pytest.raises(FMICallException, match="error"):
             robot.step()
-        assert "step starts at 7.0 s, but the one before ended at" in robot.messages[-1]
+        assert "beyond the stop time" in robot.messages[-1]
 
 
-def test_a_motion_that_diverges_is_a_message(tmp_path: Path) -> None:
-    (tmp_path / "stiff.toml").write_text(stiff_robot())
-    file = tmp_path / "Stiff.fmu"
-    file.write_bytes(plant_fmu(str(tmp_path / "stiff.toml")))
-    with plant(file) as robot:
-        robot.start()
-        with pytest.raises(FMICallException, match="discard"):
+def test_a_motion_that_diverges_is_an_error_and_stays_one(path: Path) -> None:
+    with plant(path) as robot:
+        robot.start(**{"servo.stiffness": 1e6, "servo.stall_torque": 1e6})
+        with pytest.raises(FMICallException, match="error"):
             for _ in range(60):
                 robot.step()
         assert "the motion diverged before t =" in robot.messages[-1]
+        with pytest.raises(FMICallException, match="error"):
+            robot.step()
+        assert not robot.fell
+        robot.reset()
+        robot.start()
+        robot.step()
 
 
-LOADED = "import sys; sys.path.insert(0, {support!r}); {before}; from plant_probe import FMU2Plant"
-INSTANTIATED = """
-from pathlib import Path
-robot = FMU2Plant(Path({path!r}))
-try:
-    robot.instantiate(callbacks=robot.own, loggingOn=True)
-except Exception:
-    print(*robot.messages)
-"""
+def test_steps_too_short_for_what_is_under_way_are_warned_of_once(path: Path) -> None:
+    with plant(path) as robot:
+        robot.start(**{"servo.latency": 0.1})
+        robot.step(0.1 / 200)
+        assert robot.messages == ["started at 0 s: 4 legs, seed 0"]
+        for _ in range(300):
+            robot.step(1e-6)
+        assert len(robot.messages) == 2
+        assert robot.messages[-1].startswith("steps of 1e-06 s are short for a delay of 0.1 s")
 
 
-def messages_of(path: Path, before: str = "pass") -> str:
-    support = str(Path(__file__).resolve().parents[2] / "support")
-    script = LOADED.format(support=support, before=before) + INSTANTIATED.format(path=str(path))
-    done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+WALKED = [{"seed": 7, "roughness": 1.0, "slope": 0.1}, {"seed": 1}]
+
+
+def walk_some(robot: FMU2Plant, ticks: range) -> list[list[float]]:
+    seen = []
+    for n in ticks:
+        robot.command(np.roll(WAVE, n // 7).tolist())
+        robot.step()
+        seen.append(robot.get([*POSITION, *LOADS]))
+    return seen
+
+
+@pytest.mark.parametrize("chosen", WALKED, ids=["obstacles", "plane"])
+def test_a_saved_state_continues_bit_for_bit(path: Path, chosen: dict[str, float]) -> None:
+    with plant(path) as robot, plant(path) as fresh, plant(path) as other:
+        robot.start(**chosen, **{"servo.latency": 0.02})
+        walk_some(robot, range(50))
+        state = robot.getFMUstate()
+        blob = robot.serializeFMUstate(state)
+        rest = walk_some(robot, range(50, 100))
+        robot.setFMUstate(state)
+        robot.time = 50 * TS
+        assert robot.serializeFMUstate(state) == blob
+        assert walk_some(robot, range(50, 100)) == rest
+        # into one that was never initialised, and one that stands on another ground
+        other.start(seed=99, roughness=0.3)
+        walk_some(other, range(5))
+        for instance in (fresh, other):
+            moved = instance.deSerializeFMUstate(blob)
+            instance.setFMUstate(moved)
+            instance.freeFMUstate(moved)
+            instance.time = 50 * TS
+            assert walk_some(instance, range(50, 100)) == rest
+        robot.freeFMUstate(state)
+
+
+@contextmanager
+def plant3(path: Path) -> Iterator[Any]:
+    description = fmpy.read_model_description(str(path))
+    folder = fmpy.extract(str(path))
+    fmu = fmi3.FMU3Slave(
+        guid=description.instantiationToken,
+        unzipDirectory=folder,
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName="plant",
     )
-    return done.stdout
+    fmu.instantiate()
+    try:
+        yield fmu
+        fmu.freeInstance()
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
-def test_without_the_package_it_names_the_python_that_misses_it(path: Path) -> None:
-    said = messages_of(path, "sys.modules['apnc'] = None")
-    assert "LilibotPlant.fmu needs the package apnc" in said
-    assert sys.executable in said
+def test_fmi_3_gives_the_bits_of_fmi_2_in_arrays(path: Path) -> None:
+    file = plant_fmu(PlantBuild(fmi=3, platforms=HOST))
+    reference = {v.name: v for v in fmpy.read_model_description(str(file)).modelVariables}
+    vr = {name: v.valueReference for name, v in reference.items()}
+    assert [d.start for d in reference["joint_angle.hip"].dimensions] == [4]
+    with plant3(file) as three, plant(path) as two:
+        two.start(seed=5, roughness=0.5, condition=Condition.C2.value)
+        three.enterInitializationMode(startTime=0.0)
+        three.setInt32([vr["seed"]], [5])
+        three.setFloat64([vr["roughness"]], [0.5])
+        three.setInt64([vr["condition"]], [Condition.C2.value])
+        three.exitInitializationMode()
+        two.command(WAVE)
+        three.setFloat64([vr["theta_hip"], vr["theta_knee"]], WAVE)
+        for n in range(60):
+            two.step()
+            three.doStep(n * TS, TS)
+            for v in TABLE:
+                if v.causality is not Causality.output or v.type is not Type.real:
+                    continue
+                names = [v.scalar_name(k) for k in range(v.count(4))]
+                assert three.getFloat64([vr[v.name]], nValues=v.count(4)) == two.get(names)
+        assert three.getBoolean([vr["fell"]]) == [False]
 
 
-def test_another_version_of_the_package_is_refused(path: Path, tmp_path: Path) -> None:
+def test_it_needs_no_python(path: Path) -> None:
     with zipfile.ZipFile(path) as archive:
-        files = {name: archive.read(name) for name in archive.namelist()}
-    (script,) = (name for name in files if re.fullmatch(r"resources/plant_\w+\.py", name))
-    files[script] = re.sub(rb'BUILT_BY = ".*"', b'BUILT_BY = "0.0.1"', files[script])
-    old = tmp_path / "Old.fmu"
-    old.write_bytes(zip_fmu(files))
-    assert "was built with apnc 0.0.1" in messages_of(old)
+        names = archive.namelist()
+    folders = {name.split("/")[0] for name in names}
+    assert folders == {"modelDescription.xml", "binaries", "sources", "documentation", "model.png"}
+    assert not any(name.endswith((".py", ".toml")) for name in names)

@@ -10,8 +10,6 @@ import fmpy
 import pytest
 from lxml import etree
 
-pytest.importorskip("pythonfmu", reason="pythonfmu is missing (extra `system`)")
-
 from apnc import Experiment
 from apnc.cli import main as command_line
 from apnc.loop.gait import Gait, write_gait
@@ -122,7 +120,7 @@ def test_the_parameter_sets_hold_the_preset(folder: Path, tmp_path: Path) -> Non
     controller = values(folder / "resources/controller.ssv")
     assert controller["stored"] == "true" and controller["method"] == "tegotae"
     assert [controller[f"phi_stored[{i}]"] for i in (1, 2, 3)] == ["3.1", "3.2", "0.1"]
-    assert values(folder / "resources/plant.ssv")["condition"] == "S3"
+    assert values(folder / "resources/plant.ssv")["condition"] == "7"  # every tool takes numbers
     assert 'variable="method"' not in (folder / "OspSystemStructure.xml").read_text()
 
 
@@ -144,11 +142,13 @@ def test_what_a_system_cannot_hold_is_refused(experiment: Experiment, words: str
     ("arguments", "words"),
     [
         (["build-system", "--output", "x.fmu"], "x.fmu does not end in .ssp"),
-        (["build-system", "--naming", "cow"], "naming 'cow' is not structured or flat"),
+        (["build-system", "--naming", "cow"], "naming 'cow' is not one of structured"),
         (["build-system", "--memory", "no.json"], "no.json cannot be read"),
         (["build-system", "--condition", "C9"], "conditions 'C9' are not one of"),
         (["build-plant", "--robot", "cow"], "robot 'cow'"),
         (["build-plant", "--naming", "cow"], "naming 'cow' is not one of"),
+        (["build-plant", "--fmi", "1"], "fmi = 1 is not one of 2, 3"),
+        (["build-plant", "--platform", "vax"], "platform 'vax' is not one of linux64, "),
     ],
 )
 def test_bad_use_is_one_line(
@@ -172,13 +172,15 @@ def test_the_commands_write_what_they_say(
     monkeypatch.chdir(tmp_path)
     write_gait(Gait(("RF", "RH", "LF", "LH"), (3.1, 3.2, 0.1)), Path("gait.json"))
     for words in (
-        ["build-plant"],
+        ["build-plant", "--platform", "host"],
+        ["build-plant", "--platform", "host", "--fmi", "3", "--output", "Three.fmu"],
         ["build-system", "--memory", "gait.json", "--mi", "0.2", "--rate", "50"],
     ):
         with pytest.raises(SystemExit) as end:
             command_line.main(words)
         assert end.value.code == 0, capsys.readouterr().err
     assert fmpy.read_model_description("LilibotPlant.fmu").modelName == "LilibotPlant"
+    assert fmpy.read_model_description("Three.fmu").fmiVersion == "3.0"
     controller = values(Path("Lilibot/resources/controller.ssv"))
     assert (controller["MI"], controller["stored"]) == ("0.2", "true")
     assert "<BaseStepSize>0.02" in Path("Lilibot/OspSystemStructure.xml").read_text()

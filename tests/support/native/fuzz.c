@@ -11,14 +11,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "apnc.h"
 #include "fmi2Functions.h"
-#include "instance.h"
+#include "model.h"
 
 #define INSTANCES 3
 #define STATES    4
 #define BLOB_ROOM (1 << 17)
 #define SOME      8
+
+/* Of a state: where its indices lie, which no blob may spoil, and the longest step to try [s]. */
+#ifdef FUZZ_PLANT
+#include "plant_variables.h"
+#define INDICES 64u
+#define LONGEST 0.2
+typedef plant_parameters parameters;
+#else
+#include "apnc.h"
+#define INDICES offsetof(apnc_state, estimation.oldest)
+#define LONGEST 100.0
+typedef apnc_parameters parameters;
+#endif
 
 static uint64_t random_state;
 static long calls, answers[6], messages;
@@ -90,7 +102,7 @@ static double odd_real(void) {
 static fmi2ValueReference some_reference(void) {
     if (one_in(20)) return draw(UINT32_MAX);
     if (one_in(4)) return APNC_VR_STRIDE * draw(4) + draw(4); /* inputs */
-    return APNC_VR_STRIDE * draw(APNC_ROWS + (uint32_t)one_in(30)) + draw(one_in(10) ? 100 : 4);
+    return APNC_VR_STRIDE * draw((uint32_t)apnc_row_count + (uint32_t)one_in(30)) + draw(one_in(10) ? 100 : 4);
 }
 
 static const void *or_null(const void *pointer) { return one_in(60) ? NULL : pointer; }
@@ -184,7 +196,7 @@ static void step(int i) {
     if (one_in(4)) h *= (double)draw(1000) / 50.0;
     if (one_in(20)) t = odd_real();
     if (one_in(20)) h = odd_real();
-    if (h > 100.0 && h < 1e12) h = 100.0; /* long steps are tried, but not all day */
+    if (h > LONGEST && h < 1e12) h = LONGEST; /* long steps are tried, but not all day */
     if (count(fmi2DoStep(instance[i], t, h, fmi2True)) > fmi2Warning) return;
     now[i] = t + h;
     if (h < 1e3) ticks += (long)(h * 60.0);
@@ -199,10 +211,9 @@ static uint64_t checksum(const unsigned char *bytes, size_t size) {
 /* Spoils the blob; sometimes so that its checksum is right again, as a hostile file would. */
 static void spoil(void) {
     const size_t header = blob_size - apnc_saved_size();
-    const size_t parts[] = {0, apnc_state_at(), apnc_run_at(),
-                            apnc_state_at() + offsetof(apnc_state, estimation.oldest)};
-    const size_t sizes[] = {sizeof(apnc_parameters), sizeof(apnc_state), sizeof(apnc_run),
-                            3 * sizeof(int32_t)};
+    const size_t parts[] = {0, apnc_state_at(), apnc_run_at(), apnc_state_at() + INDICES};
+    const size_t sizes[] = {sizeof(parameters), apnc_state_size(), sizeof(apnc_run),
+                            12 * sizeof(int32_t)};
     for (uint32_t k = draw(4); k > 0; k--) {
         const uint32_t part = draw(4);
         const size_t at = header + parts[part] + draw((uint32_t)sizes[part]);

@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "apnc.h"
 #include "fmi3_standard.h"
-#include "instance.h"
+#include "model.h"
 
 #define INSTANCES 3
 #define STATES    4
@@ -69,8 +68,8 @@ static double odd_real(void) {
 static size_t pick(fmi3ValueReference *vr, size_t n, apnc_type type) {
     size_t values = 0;
     for (size_t k = 0; k < n; k++) {
-        uint32_t row = draw(APNC_ROWS);
-        while (!one_in(40) && apnc_rows[row].type != type) row = draw(APNC_ROWS);
+        uint32_t row = draw((uint32_t)apnc_row_count);
+        while (!one_in(40) && apnc_rows[row].type != type) row = draw((uint32_t)apnc_row_count);
         vr[k] = APNC_VR_STRIDE * row + (one_in(40) ? draw(100) : 0);
         if (one_in(60)) vr[k] = one_in(2) ? APNC_VR_TIME : draw(UINT32_MAX);
         values += (size_t)apnc_rows[row].count;

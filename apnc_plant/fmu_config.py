@@ -1,0 +1,109 @@
+"""A robot as the header that its FMU is compiled with: every number that is no parameter."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any, Final
+
+import numpy as np
+
+from apnc_plant.conditions import CONDITIONS, Conditions
+from apnc_plant.generate import start_macro
+from apnc_plant.ground.obstacles import CELLS, SINK_IN, STEP_HEIGHT, TILE, Ground
+from apnc_plant.numbers import SUSPENSION, leg_numbers
+from apnc_plant.robot.model import GRAVITY, PAYLOAD_SIZE, RobotDescription
+from apnc_plant.variables import Condition, row, starts_of
+
+HEADER: Final = "robot_config.h"
+
+
+def robot_config(robot: RobotDescription) -> bytes:
+    """``robot_config.h``.
+
+    Args:
+        robot: the robot.
+
+    Raises:
+        ValueError: a number of the robot that its FMU does not take.
+    """
+    trunk, field = robot.trunk, Ground()
+    lines = [
+        f"/* Robot '{robot.name}', written by the build. */",
+        "#ifndef ROBOT_CONFIG_H",
+        "#define ROBOT_CONFIG_H",
+        "",
+        *_defines(
+            {
+                "ROBOT_GRAVITY": (GRAVITY, "[m/s^2]"),
+                "ROBOT_WEIGHT": (robot.weight, "[N] without payload"),
+                "ROBOT_TRUNK_MASS": (trunk.body.mass, "[kg]"),
+                "ROBOT_TRUNK_SIZE": (trunk.body.size, "[m] edges of its box"),
+                "ROBOT_TRUNK_CENTER": (trunk.center, "[m] middle of that box"),
+                "ROBOT_TRUNK_COM": (trunk.body.com, "[m] centre of mass"),
+                "ROBOT_COM_SIDE_OFFSET": (trunk.com_side_offset, "[m]"),
+                "ROBOT_SUSPENSION": (SUSPENSION, "of a held trunk, see plant_suspension"),
+                "ROBOT_PAYLOAD_SIZE": (PAYLOAD_SIZE, "[m] edges of the box on the trunk"),
+                "ROBOT_FIELD_BALLS": (round(field.density * TILE**2), "obstacles in a tile"),
+                "ROBOT_FIELD_CELLS": (CELLS, "along an edge of a tile"),
+                "ROBOT_FIELD_TILE": (TILE, "[m]"),
+                "ROBOT_FIELD_STEP": (STEP_HEIGHT, "[m] height of obstacles at roughness 1"),
+                "ROBOT_FIELD_DIAMETERS": (field.diameters, "[m] smallest and largest"),
+                "ROBOT_FIELD_SINK_IN": (SINK_IN, "[m]"),
+            }
+        ),
+        "/* Start values of parameters. */",
+        *_defines({start_macro(row(name)): (v[0], "") for name, v in starts_of(robot).items()}),
+        "/* Legs, see plant_leg. */",
+        *_table("ROBOT_LEGS", (_initializer(leg_numbers(leg)) for leg in robot.legs)),
+        "/* Conditions, see plant_model.c. */",
+        *_table(
+            "ROBOT_CONDITIONS",
+            (_condition(CONDITIONS[each.name], robot) for each in Condition),
+        ),
+        "",
+        "#endif",
+        "",
+    ]
+    return "\n".join(lines).encode()
+
+
+def _defines(values: Mapping[str, tuple[object, str]]) -> list[str]:
+    return [
+        f"#define {name} {_initializer(value)}" + (f" /* {comment} */" if comment else "")
+        for name, (value, comment) in values.items()
+    ]
+
+
+def _table(name: str, entries: Iterable[str]) -> list[str]:
+    return [" \\\n    ".join([f"#define {name}", ", \\\n    ".join(entries)])]
+
+
+def _condition(conditions: Conditions, robot: RobotDescription) -> str:
+    legs = tuple(leg.name for leg in robot.legs)
+    named = (*conditions.damaged, *conditions.stuck)
+    missing = next((leg for leg in named if leg not in legs), None)
+    delivered = {leg: value * robot.weight / 2.0 for leg, value in conditions.stuck.items()}
+    delivered |= dict.fromkeys(conditions.silent(legs), 0.0)
+    held = conditions.held_at is not None
+    parts: list[Any] = [
+        conditions.payload,
+        conditions.grf_noise,
+        conditions.held_at or 0.0,
+        int(held),
+        [int(leg in conditions.damaged) for leg in legs],
+        [delivered.get(leg, math.nan) for leg in legs],
+    ]
+    name = f'"{missing}"' if missing else "NULL"
+    return "{" + ", ".join([name, *map(_initializer, parts)]) + "}"
+
+
+def _initializer(value: Any) -> str:
+    """A value as C initialises it, without loss."""
+    if isinstance(value, dict):
+        return _initializer(list(value.values()))
+    if isinstance(value, list | tuple | np.ndarray):
+        return "{" + ", ".join(map(_initializer, value)) + "}"
+    if isinstance(value, float) and math.isnan(value):
+        return "NAN"
+    return repr(value) if isinstance(value, int) else repr(float(value))

@@ -1,0 +1,66 @@
+"""Numbers of the rows, from which value references follow: fixed for good.
+
+Importers keep value references, so no number moves or is used again. A new row gets the next
+number from ``python -m apnc_plant.generate``; the number of a row that was removed stays here.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+ROW_NUMBERS: Final[dict[str, int]] = {
+    "theta_hip": 0,
+    "theta_knee": 1,
+    "seed": 2,
+    "roughness": 3,
+    "slope": 4,
+    "payload": 5,
+    "condition": 6,
+    "step": 7,
+    "servo.stiffness": 8,
+    "servo.damping": 9,
+    "servo.stall_torque": 10,
+    "servo.no_load_speed": 11,
+    "servo.reflected_inertia": 12,
+    "servo.latency": 13,
+    "servo.slew_rate": 14,
+    "contact.foot_radius": 15,
+    "contact.stiffness": 16,
+    "contact.damping": 17,
+    "contact.damping_depth": 18,
+    "contact.friction": 19,
+    "contact.friction_speed": 20,
+    "sensor.delay": 21,
+    "sensor.time_constant": 22,
+    "sensor.noise": 23,
+    "sensor.component": 24,
+    "position.x": 25,
+    "position.y": 26,
+    "position.z": 27,
+    "rpy.roll": 28,
+    "rpy.pitch": 29,
+    "rpy.yaw": 30,
+    "velocity.x": 31,
+    "velocity.y": 32,
+    "velocity.z": 33,
+    "joint_angle.abduction": 34,
+    "joint_angle.hip": 35,
+    "joint_angle.knee": 36,
+    "joint_speed.abduction": 37,
+    "joint_speed.hip": 38,
+    "joint_speed.knee": 39,
+    "joint_torque.abduction": 40,
+    "joint_torque.hip": 41,
+    "joint_torque.knee": 42,
+    "joint_work.abduction": 43,
+    "joint_work.hip": 44,
+    "joint_work.knee": 45,
+    "foot_position.x": 46,
+    "foot_position.y": 47,
+    "foot_position.z": 48,
+    "foot_force.x": 49,
+    "foot_force.y": 50,
+    "foot_force.z": 51,
+    "grf": 52,
+    "fell": 53,
+}

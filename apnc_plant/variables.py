@@ -1,0 +1,228 @@
+"""The table of variables of a robot's FMU: names, units, ranges, start values, descriptions.
+
+Description, C structs and the table in C are made from it (``python -m apnc_plant.generate``), with
+the numbers of ``apnc_plant/row_numbers.py``. Start values of a robot's own numbers are those of the
+robot that is built, see :func:`starts_of`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from enum import IntEnum
+from typing import Any, Final
+
+from apnc_core.enumerations import Enumeration
+from apnc_core.schema import Causality, Shape, Type, Value, Variable
+from apnc_core.variables import row as controller_row
+from apnc_plant.channels import PLANT_CHANNELS, Channel
+from apnc_plant.conditions import PAYLOAD
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot.model import RobotDescription
+
+COMMANDS: Final = ("theta_hip", "theta_knee")
+LOAD: Final = "grf"
+LARGEST_SEED: Final = 2**31 - 1
+
+
+class Condition(IntEnum):
+    """Conditions of the paper, by the names of ``apnc_plant.conditions``."""
+
+    C1 = 1
+    C2 = 2
+    C3 = 3
+    C4 = 4
+    S1 = 5
+    S2 = 6
+    S3 = 7
+
+
+class LoadComponent(IntEnum):
+    """Which part of a force a foot sensor feels."""
+
+    normal = 1
+    norm = 2
+
+
+ENUMERATIONS: Final = (
+    Enumeration(
+        Condition,
+        (
+            "nothing is wrong",
+            "noisy loads",
+            "leg RF is damaged: its hip and knee are held at 0",
+            f"a payload of {PAYLOAD:g} kg, which cannot come or go between steps",
+            "held in the air",
+            "the sensors of legs RF and LF are stuck",
+            "no sensor delivers a load",
+        ),
+    ),
+    Enumeration(LoadComponent, ("along the normal of the ground", "length of the whole force")),
+)
+_CONDITION, _COMPONENT = ENUMERATIONS
+
+
+def _input(name: str) -> Variable:
+    """A command: what the controller's output of this name is."""
+    return replace(
+        controller_row(name),
+        causality=Causality.input,
+        variability="continuous",
+        start=0.0,
+        initial_from=(),
+        equation="",
+    )
+
+
+def _fixed(name: str, description: str, **rest: Any) -> Variable:
+    return Variable(name, "", description, Causality.parameter, "fixed", **rest)
+
+
+def _tunable(name: str, description: str, **rest: Any) -> Variable:
+    return Variable(name, "", description, Causality.parameter, "tunable", **rest)
+
+
+_MOST_S: Final = 1.0
+"""Longest latency or delay [s]."""
+
+_PARAMETERS: Final = (
+    _fixed(
+        "seed", "chooses the asymmetry of the robot, the noise of its sensors and the obstacles",
+        type=Type.integer, start=0, min=0, max=LARGEST_SEED),
+    _fixed(
+        "roughness", "height of the obstacles on the ground over the robot's step height; 0 for "
+        "none", start=0.0, unit="1", min=0.0, max=1.0),
+    _fixed(
+        "slope", "angle by which the ground rises along x",
+        start=0.0, unit="rad", display_unit="deg", min=-1.5, max=1.5),
+    _fixed(
+        "payload", "mass of a box on the trunk, on top of that of the condition",
+        start=0.0, unit="kg", min=0.0, max=100.0),
+    _tunable(
+        "condition", "what is wrong with the robot",
+        type=Type.enumeration, enumeration=_CONDITION, start=Condition.C1.value),
+    _fixed(
+        "step", "longest integration step; a step of the FMU is cut into equal parts",
+        start=PlantOptions().step, unit="s", min=1e-6, max=1 / 60),
+    _tunable(
+        "servo.stiffness", "torque of a servo per position error",
+        start=1.0, unit="N.m/rad", min=1e-6, max=1e6),
+    _tunable(
+        "servo.damping", "torque of a servo per joint speed",
+        start=0.0, unit="N.m.s/rad", min=0.0, max=1e6),
+    _tunable(
+        "servo.stall_torque", "largest torque of a servo",
+        start=1.0, unit="N.m", min=1e-6, max=1e6),
+    _tunable(
+        "servo.no_load_speed", "speed at which a servo has no driving torque left",
+        start=1.0, unit="rad/s", min=1e-6, max=1e6),
+    _fixed(
+        "servo.reflected_inertia", "rotor inertia times the gear ratio squared",
+        start=0.0, unit="kg.m2", min=0.0, max=1e3),
+    _tunable(
+        "servo.latency", "age of a command when the servo starts to follow it",
+        start=0.0, unit="s", min=0.0, max=_MOST_S),
+    _tunable(
+        "servo.slew_rate", "fastest change of a command that a servo follows; 0 for no limit",
+        start=0.0, unit="rad/s", min=0.0, max=1e6),
+    _fixed(
+        "contact.foot_radius", "radius of the foot balls",
+        start=0.01, unit="m", min=1e-4, max=1.0),
+    _tunable(
+        "contact.stiffness", "normal force on a foot per depth",
+        start=1e4, unit="N/m", min=1e-12, max=1e9),
+    _tunable(
+        "contact.damping", "normal force per speed of approach, from the damping depth on",
+        start=0.0, unit="N.s/m", min=0.0, max=1e9),
+    _tunable(
+        "contact.damping_depth", "depth over which the damping sets in",
+        start=1e-4, unit="m", min=1e-9, max=1.0),
+    _tunable(
+        "contact.friction", "Coulomb coefficient of the feet",
+        start=0.8, unit="1", min=0.0, max=1e3),
+    _tunable(
+        "contact.friction_speed", "sliding speed below which friction is proportional to it",
+        start=0.03, unit="m/s", min=1e-6, max=1e3),
+    _tunable(
+        "sensor.delay", "age of a load when it arrives",
+        start=0.0, unit="s", min=0.0, max=_MOST_S),
+    _tunable(
+        "sensor.time_constant", "of the first-order low-pass of the loads; 0 for none",
+        start=0.0, unit="s", min=0.0, max=1e3),
+    _tunable(
+        "sensor.noise", "standard deviation of the loads' noise over half the weight",
+        start=0.0, unit="1", min=0.0, max=1e3),
+    _tunable(
+        "sensor.component", "part of the force on a foot that its sensor feels",
+        type=Type.enumeration, enumeration=_COMPONENT, start=LoadComponent.normal.value),
+)  # fmt: skip
+
+PARTS: Final = ("servo", "contact", "sensor")
+"""Parts of a robot whose numbers are parameters, by the names of their fields."""
+
+
+def _outputs(channel: Channel) -> list[Variable]:
+    """Rows of a channel: one per component, with an entry per leg."""
+    names = [f"{channel.name}.{c}" for c in channel.components] or [channel.name]
+    description = "; ".join(filter(None, (channel.description, channel.frame, channel.sign)))
+    return [
+        Variable(
+            name, "", description, Causality.output, "continuous",
+            shape=Shape.leg if channel.per_leg else Shape.scalar,
+            unit=channel.unit, initial_from=tuple(v.name for v in _PARAMETERS),
+        )
+        for name in names
+    ]  # fmt: skip
+
+
+FELL: Final = Variable(
+    "fell",
+    "",
+    "true once the trunk has tipped by more than 60 degrees or touched the ground; nothing moves "
+    "from then on",
+    Causality.output,
+    "discrete",
+    type=Type.boolean,
+    initial_from=tuple(v.name for v in _PARAMETERS),
+)
+
+TABLE: Final = (
+    *map(_input, COMMANDS),
+    *_PARAMETERS,
+    *(v for channel in PLANT_CHANNELS for v in _outputs(channel)),
+    FELL,
+)
+
+
+def starts_of(robot: RobotDescription) -> Mapping[str, tuple[Value, ...]]:
+    """Start values of a robot's own numbers, by the name of their row.
+
+    Args:
+        robot: the robot.
+
+    Raises:
+        ValueError: a number of the robot that its row does not allow.
+    """
+    starts: dict[str, tuple[Value, ...]] = {}
+    for v in _PARAMETERS:
+        part, _, name = v.name.partition(".")
+        if part not in PARTS:
+            continue
+        value = getattr(getattr(robot, part), name)
+        if v.enumeration:
+            value = v.enumeration.items[value].value
+        elif not v.min <= value <= v.max:
+            raise ValueError(
+                f"{v.name} is {value:g} in robot '{robot.name}'; an FMU takes {v.min:g} to "
+                f"{v.max:g} [{v.unit}]"
+            )
+        starts[v.name] = (value,)
+    return starts
+
+
+def row(name: str) -> Variable:
+    """The row called ``name``; KeyError if there is none."""
+    for variable in TABLE:
+        if variable.name == name:
+            return variable
+    raise KeyError(f"no variable '{name}' in the table of a robot")

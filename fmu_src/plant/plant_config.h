@@ -1,0 +1,9 @@
+/* Build-time choices. The build of an FMU writes its own version of this file beside the sources.
+ */
+#ifndef PLANT_CONFIG_H
+#define PLANT_CONFIG_H
+
+/* Define PLANT_PREFIX for names of this build's own, and PLANT_ONE_ROBOT to leave out what computes
+ * several robots side by side. */
+
+#endif
