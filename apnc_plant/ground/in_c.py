@@ -57,7 +57,7 @@ class GroundInC:
         self._error: BaseException | None = None
         touch, own = self._touch(ffi)
         self.flat = ground.flat
-        numbers = Numbers(contacts=1) if self.flat else ground.numbers(radius)
+        numbers = ground.numbers(radius)
         kind = "PLANT_OWN" if own else "PLANT_PLANE" if self.flat else ground.kind_in_c
         self.contacts = numbers.contacts
         reals = np.ascontiguousarray(numbers.reals, np.float64)

@@ -96,7 +96,7 @@ class Ground(Surface):
     def numbers(self, radius: float) -> Numbers:
         """Tile, cells along its edge and balls; where each cell begins in a list of balls, and that
         list."""
-        return _numbers(self, radius)
+        return Numbers(contacts=1) if self.flat else _numbers(self, radius)
 
     def lines(self, x0: float, x1: float, y0: float, y1: float) -> list[Array]:
         """The plane, and of every obstacle its foot and two arcs across its top."""
