@@ -1,0 +1,136 @@
+"""Many closed loops side by side: each as it walks alone, whatever else happens."""
+
+from __future__ import annotations
+
+import threading
+import weakref
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from apnc.loop.batch import Batch, Run, lanes_of
+from apnc.loop.experiment import Experiment
+from apnc.loop.many import compiled, simulate_many, walk_many
+from apnc.loop.record import End, Record
+from apnc.loop.simulate import simulate
+from apnc.summary import summarise
+from apnc_plant.ground import Ground, Kerb
+from apnc_plant.robot import load_robot
+
+WALK = Experiment(engine="compiled", mi=0.15, duration=1.5)
+TIMED: dict[str, Any] = {"real_time_factor": None, "fmu_share_of_wall_time": None}
+"""Figures that differ from run to run."""
+
+
+def several() -> list[Experiment]:
+    """Runs of six kinds, of unequal length, one of which falls, more of a kind than lanes."""
+    top_heavy = load_robot("lilibot")
+    body = replace(top_heavy.trunk.body, com=(-0.2, 0.0, 0.3))
+    top_heavy = replace(top_heavy, trunk=replace(top_heavy.trunk, body=body))
+    return [
+        *(replace(WALK, seed=seed, duration=0.5 + 0.1 * seed) for seed in range(11)),
+        replace(WALK, robot=top_heavy, duration=5.0),
+        replace(WALK, robot="hexapod"),
+        replace(WALK, rate=30.0, conditions=((0.0, "S1"), (0.5, "C2"))),
+        replace(WALK, ground=Ground(roughness=0.8, seed=3)),
+        replace(WALK, ground=Kerb(at=0.05, height=0.004)),
+        replace(WALK, settings={"xi": 0.05}, method="tegotae", turn=((0.0, 0.0), (0.7, 1.0))),
+    ]
+
+
+def same(a: Record, b: Record) -> bool:
+    pairs = [(a.plant[name], b.plant[name]) for name in a.plant]
+    pairs += [(a.controller[name], b.controller[name]) for name in a.controller]
+    return a.end == b.end and all(np.array_equal(x, y) for x, y in pairs)
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+def test_each_walks_as_it_walks_alone(workers: int) -> None:
+    runs, told = several(), list[tuple[int, int]]()
+    alone = [simulate(run) for run in runs]
+    assert [record.end for record in alone].count(End.fell) == 1
+    found = simulate_many(
+        runs, workers=workers, records=True, progress=lambda *numbers: told.append(numbers)
+    )
+    assert all(many is not None and same(many, one) for many, one in zip(found, alone, strict=True))
+    assert told == [(n, len(runs)) for n in range(1, len(runs) + 1)]
+    summaries = simulate_many(runs, workers=workers)
+    for summary, record in zip(summaries, alone, strict=True):
+        assert summary is not None
+        assert replace(summary, **TIMED) == replace(summarise(record), **TIMED)
+
+
+def test_another_engine_walks_in_c_and_the_record_says_so() -> None:
+    (record,) = simulate_many([replace(WALK, engine="exudyn")], records=True)
+    assert record is not None and record.experiment == compiled(record.experiment) == WALK
+
+
+def test_none_is_no_work_and_no_workers_are_refused() -> None:
+    assert simulate_many([]) == []
+    with pytest.raises(ValueError, match="workers = 0 is not at least 1"):
+        simulate_many([], workers=0)
+
+
+def test_a_controller_that_cannot_be_used_is_said() -> None:
+    with pytest.raises(ValueError, match=r"test_many\.py"):
+        simulate_many([WALK, replace(WALK, fmu=__file__)])
+
+
+def test_an_error_of_one_run_ends_no_other() -> None:
+    def each(index: int, record: Record) -> int:
+        if index == 2:
+            raise ZeroDivisionError("moo")
+        return len(record)
+
+    runs = [replace(WALK, seed=seed, duration=0.5) for seed in range(10)]
+    found = dict(walk_many(runs, each, workers=2))
+    error = found.pop(2)
+    assert isinstance(error, ZeroDivisionError)
+    assert found == {n: 30 for n in range(10) if n != 2}
+
+
+def test_an_error_of_no_run_ends_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    def walk(batch: Batch, ticks: int) -> None:
+        raise OSError("moo")
+
+    monkeypatch.setattr(Batch, "walk", walk)
+    with pytest.raises(OSError, match="moo"):
+        simulate_many([WALK] * 3, workers=2)
+
+
+def test_a_stop_ends_the_work_and_what_is_done_stays() -> None:
+    done = [0]
+
+    def progress(count: int, total: int) -> None:
+        done[0] = count
+
+    runs = [replace(WALK, duration=0.5), *[replace(WALK, duration=3000.0)] * 3]
+    before = threading.active_count()
+    found = simulate_many(runs, workers=2, progress=progress, stop=lambda: done[0] == 1)
+    assert [summary is None for summary in found] == [False, True, True, True]
+    assert threading.active_count() == before
+
+
+def test_who_looks_at_no_more_results_leaves_no_threads() -> None:
+    before = threading.active_count()
+    results = walk_many([WALK, *[replace(WALK, duration=3000.0)] * 2], lambda *run: 0, workers=2)
+    assert next(results) == (0, 0)
+    results.close()  # type: ignore[attr-defined]  # a generator
+    assert threading.active_count() == before
+
+
+def test_a_run_that_was_told_takes_no_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    alive, most = weakref.WeakSet[Run](), [0]
+
+    def begun(*what: Any) -> Run:
+        run = Run(*what)
+        alive.add(run)
+        most[0] = max(most[0], len(alive))
+        return run
+
+    monkeypatch.setattr("apnc.loop.many.Run", begun)
+    lanes = Batch(lanes_of(WALK), 1).size
+    simulate_many([replace(WALK, seed=seed, duration=0.2) for seed in range(4 * lanes)])
+    assert most == [lanes]
