@@ -98,7 +98,7 @@ def test_the_key_changes_with_the_options(change: str) -> None:
     assert build_key(BuildOptions(**{change: other})) != build_key(BuildOptions())  # type: ignore[arg-type]
 
 
-def test_a_wheel_for_this_machine_carries_its_fmus(
+def test_a_wheel_for_this_machine_carries_its_fmus_and_the_robot_in_c(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     wheel_of = pytest.importorskip("hatchling.builders.wheel").WheelBuilder
@@ -111,7 +111,11 @@ def test_a_wheel_for_this_machine_carries_its_fmus(
         archive.extractall(unpacked)
     assert len(list((unpacked / "build_fmu" / "ready").glob("*.fmu"))) == 2
     # the key of what was packed is the key that the packed code asks for
-    code = "from build_fmu.build import host_fmu; print(host_fmu(4), host_fmu(6), sep='\\n')"
+    code = (
+        "from build_fmu.build import host_fmu\n"
+        "from build_fmu.library import library_path\n"
+        "print(library_path(), host_fmu(4), host_fmu(6), sep='\\n')"
+    )
     done = subprocess.run(
         [sys.executable, "-c", code],
         cwd=tmp_path,
@@ -120,7 +124,9 @@ def test_a_wheel_for_this_machine_carries_its_fmus(
         text=True,
         check=True,
     )
-    for line, legs in zip(done.stdout.splitlines(), (4, 6), strict=True):
+    library, *fmus = done.stdout.splitlines()
+    assert Path(library).is_relative_to(unpacked)
+    for line, legs in zip(fmus, (4, 6), strict=True):
         assert Path(line).is_relative_to(unpacked)
         with zipfile.ZipFile(line) as archive:
             assert f"leg[{legs}].grf".encode() in archive.read("modelDescription.xml")

@@ -141,6 +141,19 @@ def test_an_error_in_it_is_one_clear_error(kind: Kind, capfd: pytest.CaptureFixt
     assert capfd.readouterr() == ("", "")
 
 
+@in_both
+def test_its_error_counts_more_than_the_motion_that_breaks_down_with_it(kind: Kind) -> None:
+    class Wild(Broken):
+        def touch(self, x: float, y: float, z: float, radius: float) -> Sequence[Sequence[float]]:
+            return [(0.0, 0.0, 1.0, 1e300)] if super().touch(x, y, z, radius) else []
+
+    Wild.calls, Wild.good = 0, 10**6
+    plant = kind(ROBOT, ground=Wild())
+    Wild.good = Wild.calls + 2
+    with pytest.raises(ValueError, match=MESSAGE):
+        plant.advance(np.zeros(4), np.zeros(4), TICK)
+
+
 @pytest.mark.parametrize("engine", ["compiled", "exudyn"])
 def test_a_walk_over_a_broken_ground_ends_with_that_error(engine: str) -> None:
     Broken.calls = 0
