@@ -1,6 +1,6 @@
 """Where the gait does not form: a robot without any asymmetry, and feet that bounce.
 
-``python -m apnc.studies.engines.limits`` prints the table of docs/second_engine.md.
+``python -m apnc.studies.engines.limits`` prints the table of docs/engines.md.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What a tick costs in each engine, in turn in one run, and at equal force error.
 
-``python -m apnc.studies.engines.speed`` prints the table of docs/second_engine.md.
+``python -m apnc.studies.engines.speed`` prints the table.
 """
 
 from __future__ import annotations
