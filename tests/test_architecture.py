@@ -13,9 +13,10 @@ ROOT = Path(__file__).resolve().parent.parent
 MAY_IMPORT: dict[str, set[str]] = {
     "apnc_core": set(),
     "build_fmu": {"apnc_core"},
-    "exudyn_models": {"apnc_core"},
-    "mujoco_models": {"apnc_core", "exudyn_models"},
-    "apnc": {"apnc_core", "build_fmu", "exudyn_models", "mujoco_models"},
+    "apnc_plant": {"apnc_core", "build_fmu"},
+    "exudyn_models": {"apnc_plant"},
+    "mujoco_models": {"apnc_plant"},
+    "apnc": {"apnc_core", "apnc_plant", "build_fmu", "exudyn_models", "mujoco_models"},
 }
 OUTSIDE_OF_CORE = {"numpy"}
 
@@ -45,8 +46,16 @@ def test_the_reference_needs_numpy_only() -> None:
         assert outside <= OUTSIDE_OF_CORE, path
 
 
-def test_the_c_core_knows_no_fmi_and_no_allocation() -> None:
-    for path in (ROOT / "fmu_src" / "core").iterdir():
-        text = path.read_text()
-        for word in ("fmi2", "fmi3", "malloc", "calloc", "stdio.h"):
-            assert word not in text, f"{path.name}: {word}"
+def words_in(folder: str, *words: str) -> list[str]:
+    files = (ROOT / "fmu_src" / folder).glob("*.[ch]")
+    return [f"{path.name}: {word}" for path in files for word in words if word in path.read_text()]
+
+
+def test_controller_and_robot_in_c_know_no_fmi_and_no_allocation() -> None:
+    for folder in ("core", "plant"):
+        assert words_in(folder, "fmi2", "fmi3", "malloc", "calloc", "stdio.h") == []
+
+
+def test_controller_and_robot_in_c_do_not_know_each_other() -> None:
+    assert words_in("core", "plant_") == []
+    assert words_in("plant", "apnc_tick", "apnc_data", '"apnc.h"') == []
