@@ -95,8 +95,8 @@ class Run:
     @property
     def phi(self) -> Array:
         """Relative phases that the controller showed at the last tick [rad], (n_legs - 1,)."""
-        values = self._controller_channels(max(1, self.ticks))["phi"]
-        return values[-1]
+        phi: Array = self._controller_channels(max(1, self.ticks))["phi"][-1]
+        return phi
 
     @property
     def ticks(self) -> int:

@@ -136,7 +136,8 @@ class ControllerLibrary:
                 raise FmuError(f"{name} takes {len(members)} values, not {len(values)}")
             kind = _KINDS.get(members[0].variable.type, "integer")
             groups[kind] += [(m.value_reference, v) for m, v in zip(members, values, strict=True)]
-        kept, fields = [], {}
+        kept: list[Any] = []
+        fields: dict[str, Any] = {}
         for kind, entries in groups.items():
             reference = ffi.new("uint32_t[]", [vr for vr, _ in entries] or 1)
             c_type, convert = ("double[]", float) if kind == "real" else ("int32_t[]", int)

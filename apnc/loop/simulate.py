@@ -20,7 +20,6 @@ from apnc_plant.plant import Plant, PlantError
 from build_fmu.build import host_fmu
 
 
-
 class Shown(Protocol):
     """What is shown of the controller while a robot walks."""
 
