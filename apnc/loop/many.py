@@ -138,7 +138,11 @@ class _Group:
 
 
 class _Work:
-    """What is left to walk, shared by the threads that walk it."""
+    """What is left to walk, shared by the threads that walk it.
+
+    Threads, no processes: C walks without the interpreter's lock, and what needs it, to prepare a
+    run and to take its figures, is 4 ms of 11 for 45 s of four legs. More than three threads wait.
+    """
 
     def __init__(
         self, experiments: Sequence[Experiment], each: Callable[[int, Record], object]
