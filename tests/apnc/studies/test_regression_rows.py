@@ -1,4 +1,4 @@
-"""Regression values: rows of the commit that brought the set with knees that swing further."""
+"""Regression values: rows of the commit in which studies began to walk in C, not of theory."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ ROWS: list[tuple[str, Row, Row]] = [
         "mi",
         {"method": "apnc", "mi": 0.28},
         {
-            "convergence_time_s": 1.5166666666666666,
+            "convergence_time_s": 3.2666666666666666,
             "convergence_time_authors_s": 1.0166666666666666,
-            "path_speed_m_per_s": 0.16007733684347275,
-            "balance": 123.94133576489699,
-            "cost_of_transport": 0.965394871637218,
-            "phi_final_12": 3.188143365281344,
+            "path_speed_m_per_s": 0.1592145380031059,
+            "balance": 121.48934700171564,
+            "cost_of_transport": 0.9767158878966175,
+            "phi_final_12": 3.1951002075959556,
         },
     ),
     (
@@ -25,25 +25,25 @@ ROWS: list[tuple[str, Row, Row]] = [
         {"method": "tegotae", "rate": 60.0},
         {
             "convergence_time_s": None,
-            "convergence_time_authors_s": 29.416666666666668,
-            "path_speed_m_per_s": 0.03446093078812913,
-            "balance": 58.399910464316534,
-            "cost_of_transport": 2.4666480728275153,
-            "phi_final_12": 1.658199818154198,
+            "convergence_time_authors_s": 29.45,
+            "path_speed_m_per_s": 0.034283792608760785,
+            "balance": 58.62595421847598,
+            "cost_of_transport": 2.47519825759225,
+            "phi_final_12": 1.6605066899463,
         },
     ),
     (
         "steering",
         {"course": "turns"},
         {
-            "yaw_rate_section_2": -0.46282213677626105,
-            "yaw_rate_section_3": 0.5403192176722424,
-            "convergence_time_s": 1.6833333333333333,
-            "convergence_time_authors_s": 0.9166666666666666,
-            "path_speed_m_per_s": 0.08799208724098156,
-            "balance": 33.33834947465833,
-            "cost_of_transport": 1.63332086348034,
-            "phi_final_12": 3.1519031399482884,
+            "yaw_rate_section_2": -0.45947578921572124,
+            "yaw_rate_section_3": 0.5414372318863558,
+            "convergence_time_s": 1.7666666666666666,
+            "convergence_time_authors_s": 0.9666666666666666,
+            "path_speed_m_per_s": 0.08914125365469776,
+            "balance": 33.910950302896445,
+            "cost_of_transport": 1.6219114075686665,
+            "phi_final_12": 3.13727840717209,
         },
     ),
     (
@@ -52,97 +52,54 @@ ROWS: list[tuple[str, Row, Row]] = [
         {
             "state_formation_time_s": None,
             "state_front_stopped": True,
-            "state_speed_s2": 0.03386959238132002,
+            "state_speed_s2": 0.03429602981320342,
             "state_in_phase": True,
-            "path_speed_m_per_s": 0.046294301206315294,
-            "balance": 59.88240367719597,
-            "cost_of_transport": 1.8620291408536649,
+            "path_speed_m_per_s": 0.04710635684046238,
+            "balance": 61.08456083628445,
+            "cost_of_transport": 1.8371290412413828,
         },
     ),
     (
         "terrain",
         {"method": "apnc", "roughness": 1.0},
         {
-            "convergence_time_s": 4.5,
-            "path_speed_m_per_s": 0.08633449111604889,
-            "balance": 63.42902854359674,
-            "cost_of_transport": 0.8722878205058033,
-            "phi_final_12": 3.1428012128851694,
+            "convergence_time_s": 1.4000000000000001,
+            "path_speed_m_per_s": 0.08851247144649153,
+            "balance": 71.71063232367769,
+            "cost_of_transport": 0.8261695617992045,
+            "phi_final_12": 3.1487035724818826,
         },
     ),
     (
         "conditions",
         {"method": "apnc", "condition": "C4"},
         {
-            "convergence_time_s": 7.15,
-            "path_speed_m_per_s": 0.0655746688474467,
-            "balance": 49.13210569718214,
-            "cost_of_transport": 0.9357612843246451,
-            "phi_final_12": 3.207118351446713,
+            "convergence_time_s": 6.05,
+            "path_speed_m_per_s": 0.06751396666160998,
+            "balance": 49.7411103846773,
+            "cost_of_transport": 0.9576429037665496,
+            "phi_final_12": 3.2399063812993703,
         },
     ),
     (
         "damage",
         {"method": "phase_reset"},
         {
-            "convergence_time_authors_s": 1.85,
-            "path_speed_m_per_s": 0.015598508068463511,
-            "balance": 54.995136299751756,
-            "cost_of_transport": 7.370763802795137,
+            "convergence_time_authors_s": 5.933333333333334,
+            "path_speed_m_per_s": 0.019287935657240313,
+            "balance": 45.760951344256554,
+            "cost_of_transport": 6.1663782271845635,
         },
     ),
     (
         "gait",
         {"mi": 0.4},
         {
-            "convergence_time_s": 6.483333333333333,
-            "lowest_lift_mm": 3.220683939406527,
-            "largest_slip_share": 0.05720083364550076,
+            "convergence_time_s": 6.416666666666667,
+            "lowest_lift_mm": 4.808448013646933,
+            "largest_slip_share": 0.06679175326015216,
             "worst_touch_downs": 1.0,
-            "late_speed_m_per_s": 0.1929942941993875,
-        },
-    ),
-    (
-        "terrain",
-        {"method": "apnc", "roughness": 1.0},
-        {
-            "convergence_time_s": 4.5,
-            "path_speed_m_per_s": 0.08633449111604889,
-            "balance": 63.42902854359674,
-            "cost_of_transport": 0.8722878205058033,
-            "phi_final_12": 3.1428012128851694,
-        },
-    ),
-    (
-        "conditions",
-        {"method": "apnc", "condition": "C4"},
-        {
-            "convergence_time_s": 7.15,
-            "path_speed_m_per_s": 0.0655746688474467,
-            "balance": 49.13210569718214,
-            "cost_of_transport": 0.9357612843246451,
-            "phi_final_12": 3.207118351446713,
-        },
-    ),
-    (
-        "damage",
-        {"method": "phase_reset"},
-        {
-            "convergence_time_authors_s": 1.85,
-            "path_speed_m_per_s": 0.015598508068463511,
-            "balance": 54.995136299751756,
-            "cost_of_transport": 7.370763802795137,
-        },
-    ),
-    (
-        "gait",
-        {"mi": 0.4},
-        {
-            "convergence_time_s": 6.483333333333333,
-            "lowest_lift_mm": 3.220683939406527,
-            "largest_slip_share": 0.05720083364550076,
-            "worst_touch_downs": 1.0,
-            "late_speed_m_per_s": 0.1929942941993875,
+            "late_speed_m_per_s": 0.1960642215180952,
         },
     ),
 ]
@@ -152,7 +109,7 @@ ROWS: list[tuple[str, Row, Row]] = [
 def test_the_row_is_the_same(study: str, cell: Row, figures: Row) -> None:
     (trial,) = [t for t in grid_of(study, 1) if cell.items() <= t.cell.items()]
     row = run_trial(trial)
-    # to the last bit where the rows were made; the C libraries of others round otherwise
+    # the walks have these bits on every machine; figures are rounded otherwise by other numpys
     assert {name: row[name] for name in figures} == {
         name: value if value is None else pytest.approx(value, rel=1e-6)
         for name, value in figures.items()
