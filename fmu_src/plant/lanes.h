@@ -18,6 +18,8 @@
 
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__)
+#pragma GCC diagnostic ignored "-Wpsabi" /* whatever takes vectors is inlined */
 #endif
 
 #if defined(__GNUC__)
