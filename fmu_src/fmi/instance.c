@@ -87,7 +87,9 @@ void apnc_save(const apnc_instance *instance, void *saved) {
 
 apnc_status apnc_restore(apnc_instance *instance, const void *saved) {
     memcpy(instance->values, saved, apnc_saved_size());
-    return apnc_model_unpack(instance);
+    if (apnc_model_unpack(instance) == APNC_OK) return APNC_OK;
+    apnc_clear(instance);
+    return APNC_ERROR;
 }
 
 apnc_status apnc_set_times(apnc_instance *instance, const char *function, double start_time,

@@ -155,7 +155,7 @@ size_t apnc_run_at(void);
 size_t apnc_state_at(void);
 
 /* Saved states: a copy of the block, and the same as bytes behind a header. A blob is read into
- * `saved`, of apnc_saved_size() bytes. */
+ * `saved`, of apnc_saved_size() bytes. What cannot be restored leaves a fresh instance. */
 void apnc_save(const apnc_instance *instance, void *saved);
 apnc_status apnc_restore(apnc_instance *instance, const void *saved);
 size_t apnc_blob_size(void);

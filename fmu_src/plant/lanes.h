@@ -59,7 +59,7 @@ INL void s_sin_cos(double x, double *sine, double *cosine) {
     const double shifted = x * 0.6366197723675814 + LANES_TO_WHOLE, n = shifted - LANES_TO_WHOLE;
     const double u = LANES_REST(x, n);
     LANES_SINE_COSINE(double, u, s, c)
-    int64_t quarter; /* its last two bits, those of n */
+    uint64_t quarter; /* its last two bits, those of n */
     memcpy(&quarter, &shifted, sizeof quarter);
     const double a = quarter & 1 ? c : s, b = quarter & 1 ? s : c;
     *sine = quarter & 2 ? -a : a;

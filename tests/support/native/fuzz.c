@@ -102,7 +102,8 @@ static double odd_real(void) {
 static fmi2ValueReference some_reference(void) {
     if (one_in(20)) return draw(UINT32_MAX);
     if (one_in(4)) return APNC_VR_STRIDE * draw(4) + draw(4); /* inputs */
-    return APNC_VR_STRIDE * draw((uint32_t)apnc_row_count + (uint32_t)one_in(30)) + draw(one_in(10) ? 100 : 4);
+    return APNC_VR_STRIDE * draw((uint32_t)apnc_row_count + (uint32_t)one_in(30)) +
+           draw(one_in(10) ? 100 : 4);
 }
 
 static const void *or_null(const void *pointer) { return one_in(60) ? NULL : pointer; }
