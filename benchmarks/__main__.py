@@ -1,0 +1,20 @@
+"""All benchmarks, one after the other."""
+
+from benchmarks import (
+    batch,
+    closed_loop,
+    install,
+    legs,
+    memory,
+    mujoco_rollout,
+    plant,
+    study,
+    walk_command,
+)
+from benchmarks.command import main
+
+if __name__ == "__main__":
+    modules = (
+        closed_loop, batch, plant, mujoco_rollout, legs, memory, walk_command, install, study,
+    )  # fmt: skip
+    main({module.__name__.split(".")[-1]: module.measure for module in modules}, __doc__)

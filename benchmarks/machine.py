@@ -1,0 +1,91 @@
+"""What the figures come from, and where they are measured."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import platform
+import subprocess
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Final
+
+from apnc_plant.library import library
+
+ROOT: Final = Path(__file__).resolve().parent.parent
+"""The checkout."""
+
+PACKAGES: Final = ("numpy", "scipy", "exudyn", "mujoco", "fmpy", "cffi")
+"""Whose versions count."""
+
+
+def machine() -> dict[str, str]:
+    """Processor, system, versions and commit, by what they are."""
+    return {
+        "processor": _processor(),
+        "instruction sets": ", ".join(levels().values()),
+        "system": f"{platform.system()} {platform.machine()}, libc {platform.libc_ver()[1]}",
+        "load": load(),
+        "priority": f"nice {os.nice(0)}" if hasattr(os, "nice") else "",
+        "date": time.strftime("%Y-%m-%d %H:%M"),
+        "commit": _commit(),
+        "python": platform.python_version(),
+        "compiler": f"zig {_version('ziglang')}",
+        **{name: _version(name) for name in PACKAGES},
+    }
+
+
+def load() -> str:
+    """Programs that ran or waited, on average over the last minute, and cores."""
+    average = f"{os.getloadavg()[0]:.2f}" if hasattr(os, "getloadavg") else "unknown"
+    return f"{average} on {os.cpu_count()} cores"
+
+
+def levels() -> dict[int, str]:
+    """Names of the instruction sets of this machine that the robot in C has, by their level."""
+    ffi, lib = library()
+    return {
+        level: ffi.string(lib.plant_level_name(level)).decode()
+        for level in range(lib.plant_best_level() + 1)
+    }
+
+
+@contextmanager
+def one_core(core: int) -> Iterator[None]:
+    """This process stays on one core, if it is above -1 and the system knows of that."""
+    if core < 0 or not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {core})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, before)
+
+
+def _processor() -> str:
+    info = Path("/proc/cpuinfo")
+    if info.is_file():
+        for line in info.read_text().splitlines():
+            if line.startswith("model name"):
+                return f"{line.split(':')[1].strip()}, {os.cpu_count()} cores"
+    return f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores"
+
+
+def _commit() -> str:
+    command = ["git", "-C", str(ROOT), "describe", "--always", "--dirty", "--abbrev=12"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        return "unknown"
+    return done.stdout.strip() or "unknown"
+
+
+def _version(package: str) -> str:
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return "not installed"
