@@ -39,16 +39,20 @@ def checked(name: str, value: object) -> Setting:
         ValueError: unknown name, wrong type or out of range; a Real takes a whole number, an
             Integer no other, and a Boolean no number.
     """
-    row = parameter(name)
+    return checked_in(parameter(name), value)
+
+
+def checked_in(row: Variable, value: object) -> Setting:
+    """As ``checked``, of a row of any table."""
     if row.shape is not Shape.scalar:
         if isinstance(value, str) or not isinstance(value, Sequence):
-            raise _error(name, value, "a list of numbers")
+            raise _error(row.name, value, "a list of numbers")
         return tuple(_number(row, item, value) for item in value)
     if row.enumeration is not None:
         return _item(row, value)
     if row.type is Type.boolean:
         if not isinstance(value, bool):
-            raise _error(name, value, "true or false")
+            raise _error(row.name, value, "true or false")
         return value
     return _number(row, value, value)
 

@@ -17,8 +17,7 @@ _NAMESPACE: Final = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
 def osp(structure: Structure) -> bytes:
     """OspSystemStructure.xml.
 
-    Pitfalls: its steps are whole nanoseconds, so the step is rounded to one. Start values of
-    enumerations are left out: libcosim knows no enumerations.
+    Pitfall: its steps are whole nanoseconds, so the step is rounded to one.
     """
     root = etree.Element("OspSystemStructure", xmlns=_NAMESPACE, version="0.1")
     step = f"{structure.step:.9f}"
@@ -32,7 +31,7 @@ def osp(structure: Structure) -> bytes:
         )
         values = etree.SubElement(simulator, "InitialValues")
         for start in structure.starts:
-            if start.component == part.name and start.type != "Enumeration":
+            if start.component == part.name:
                 value = etree.SubElement(values, "InitialValue", variable=start.name)
                 etree.SubElement(value, start.type, value=value_text(start))
     connections = etree.SubElement(root, "Connections")

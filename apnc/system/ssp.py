@@ -103,4 +103,4 @@ def ssv(structure: Structure, component: Component) -> bytes:
 
 def value_text(start: Start) -> str:
     """A start value as XML Schema has it."""
-    return start.value if isinstance(start.value, str) else number(start.value)
+    return number(start.value)

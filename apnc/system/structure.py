@@ -1,15 +1,20 @@
-"""Controller and plant connected, as plain data; the files of SSP and OSP are made from it."""
+"""Controller and plant connected, as plain data; the files of SSP, OSP and C are made from it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Final
 
 from apnc.loop.experiment import Experiment
 from apnc.system.plant_fmu import MODEL_SUFFIX, PlantBuild, plant_model
-from apnc_core.schema import Causality, Scalar, Type
+from apnc_core.schema import Causality, Scalar, Type, Value
+from apnc_core.settings import Setting, checked_in
 from apnc_core.variables import row, rows, scalars
-from apnc_plant.variables import COMMANDS, FELL, LOAD, Condition
+from apnc_plant.conditions import CONDITIONS, Conditions
+from apnc_plant.ground import Ground
+from apnc_plant.variables import COMMANDS, FELL, LOAD, TABLE, Condition
 from build_fmu.description_parts import UNITS
 from build_fmu.platforms import MODEL
 
@@ -19,7 +24,14 @@ RESOURCES: Final = "resources"
 
 _CONTROLLER_SHOWS: Final = (*COMMANDS, "o1", "o2", "phi", "kappa")
 _PLANT_SHOWS: Final = (LOAD, "position", "rpy", "velocity", FELL.name)
-_PLANT_STARTS: Final = ("seed", "roughness", "slope", "payload", "condition")
+_INPUTS_SET: Final = ("MI", "turn")
+"""Inputs that nothing is connected to and that an experiment gives a value."""
+
+PLANT_PARAMETERS: Final = {v.name: v for v in TABLE if v.causality is Causality.parameter}
+"""Parameters of the plant by name."""
+
+_OF_EXPERIMENT: Final = ("seed", "roughness", "slope", "payload", "condition", "step")
+"""Those of them that an experiment says."""
 
 
 class UnfitExperimentError(ValueError):
@@ -28,32 +40,62 @@ class UnfitExperimentError(ValueError):
 
 @dataclass(frozen=True)
 class Connector:
-    """An input or output that the system shows; ``kind`` is its causality."""
+    """An input or output that the system shows.
+
+    Args:
+        name: of the variable.
+        kind: its causality.
+        type: its FMI type.
+        unit: its unit, if it has one.
+        reference: its value reference.
+    """
 
     name: str
     kind: str
     type: str
     unit: str | None
+    reference: int
 
 
 @dataclass(frozen=True)
 class Component:
-    """One FMU of the system and what it shows."""
+    """One FMU of the system.
+
+    Args:
+        name: of the component.
+        model: name of the model, and of its libraries.
+        connectors: what it shows.
+    """
 
     name: str
-    source: str
+    model: str
     connectors: tuple[Connector, ...]
+
+    @property
+    def source(self) -> str:
+        """Path of the FMU in the archive."""
+        return f"{RESOURCES}/{self.model}.fmu"
 
 
 @dataclass(frozen=True)
 class Start:
-    """A start value, of a parameter or an input."""
+    """A start value, of a parameter or an input.
+
+    Args:
+        component: name of the FMU.
+        name: of the variable.
+        type: its FMI type: Real, Integer or Boolean.
+        value: the value.
+        unit: its unit, if it has one.
+        reference: its value reference.
+    """
 
     component: str
     name: str
     type: str
-    value: float | int | bool | str
-    unit: str | None = None
+    value: Value
+    unit: str | None
+    reference: int
 
 
 @dataclass(frozen=True)
@@ -62,6 +104,7 @@ class Structure:
 
     Args:
         name: its name.
+        legs: names of the legs.
         components: controller and plant.
         connections: pairs of (component, connector), from output to input.
         starts: start values.
@@ -70,6 +113,7 @@ class Structure:
     """
 
     name: str
+    legs: tuple[str, ...]
     components: tuple[Component, Component]
     connections: tuple[tuple[tuple[str, str], tuple[str, str]], ...]
     starts: tuple[Start, ...]
@@ -90,7 +134,7 @@ def system_name(robot: str) -> str:
 
 
 def plant_build(experiment: Experiment, naming: str, platforms: tuple[str, ...] = ()) -> PlantBuild:
-    """The plant FMU of a system; its condition is a number, which every tool takes.
+    """The plant FMU of a system; its enumerations are numbers, which every tool takes.
 
     Args:
         experiment: what walks; its robot by name or file.
@@ -103,97 +147,172 @@ def plant_build(experiment: Experiment, naming: str, platforms: tuple[str, ...] 
     )
 
 
-def structure_of(experiment: Experiment, naming: str = "structured") -> Structure:
+def plant_setting(text: str) -> tuple[str, Setting] | None:
+    """``"servo.stiffness=40"`` -> ``("servo.stiffness", 40.0)``.
+
+    Args:
+        text: name, equals sign and value; the value as in JSON, an enumeration by item name.
+
+    Returns:
+        Name and value, or None where the name is of no number of the robot.
+
+    Raises:
+        ValueError: a value outside what is allowed.
+    """
+    name, _, value = (part.strip() for part in text.partition("="))
+    if name not in PLANT_PARAMETERS or name in _OF_EXPERIMENT:
+        return None
+    try:
+        return name, checked_in(PLANT_PARAMETERS[name], json.loads(value))
+    except json.JSONDecodeError:
+        return name, checked_in(PLANT_PARAMETERS[name], value)
+
+
+def structure_of(
+    experiment: Experiment,
+    naming: str = "structured",
+    numbers: Mapping[str, Setting] | None = None,
+) -> Structure:
     """The system that walks an experiment.
 
     Args:
-        experiment: what walks; its robot by name or file, its ground level, and nothing in it
-            changes over time.
+        experiment: what walks; its robot by name or file, its ground a plane or the paper's
+            obstacles with the seed of the experiment, and nothing in it changes over time.
         naming: of both FMUs.
+        numbers: servo, contact and sensor of the robot where they are not those of its file, by
+            the names of the plant's parameters, such as ``servo.stiffness``.
 
-    ``MI``, ``turn`` and ``reset`` are no connectors. FMPy writes 0 to every input connector that
-    nothing is connected to, and MI = 0 is a reset: the robot would never walk. They keep their
-    start values, of which ``MI`` is in the parameter set.
+    ``MI``, ``turn`` and ``reset`` are no connectors: fmpy.ssp feeds an input that is listed and not
+    connected with what the input listed before it gets. They keep their start values, which for
+    ``MI`` and ``turn`` are in the parameter set.
 
     Raises:
         UnfitExperimentError: an experiment that a system cannot hold.
-        ValueError: as ``PlantBuild``.
+        ValueError: a number of the robot outside what is allowed, or as ``PlantBuild``.
     """
     _refuse(experiment)
     model, n_legs = plant_build(experiment, naming).model(), len(experiment.description.legs)
-    controller = [
-        Connector(s.name, s.variable.causality, s.variable.type, s.variable.unit)
-        for s in scalars(n_legs, naming)
-        if s.variable.name in (LOAD, *_CONTROLLER_SHOWS)
-    ]
-    plant = [
-        Connector(s.name, s.variable.causality, s.variable.type, s.variable.unit)
-        for s in model.scalars()
-        if s.variable.name.split(".")[0] in (*COMMANDS, *_PLANT_SHOWS)
-    ]
     loads = [row(LOAD).scalar_name(leg, naming) for leg in range(n_legs)]
     commands = [row(c).scalar_name(leg, naming) for c in COMMANDS for leg in range(n_legs)]
     return Structure(
         name=model.identifier.removesuffix(MODEL_SUFFIX),
+        legs=model.legs,
         components=(
-            Component(CONTROLLER, f"{RESOURCES}/{MODEL}.fmu", tuple(controller)),
-            Component(PLANT, f"{RESOURCES}/{model.identifier}.fmu", tuple(plant)),
+            Component(
+                CONTROLLER,
+                MODEL,
+                _connectors(scalars(n_legs, naming), (LOAD, *_CONTROLLER_SHOWS)),
+            ),
+            Component(
+                PLANT,
+                model.identifier,
+                _connectors(model.scalars(), (*COMMANDS, *_PLANT_SHOWS)),
+            ),
         ),
         connections=(
             *(((PLANT, name), (CONTROLLER, name)) for name in loads),
             *(((CONTROLLER, name), (PLANT, name)) for name in commands),
         ),
-        starts=(*_controller_starts(experiment, naming), *_plant_starts(experiment, naming)),
+        starts=(
+            *_controller_starts(experiment, naming),
+            *_plant_starts(experiment, naming, numbers or {}),
+        ),
         step=experiment.Ts,
         stop=experiment.duration,
     )
 
 
+def _connectors(known: Iterable[Scalar], shown: tuple[str, ...]) -> tuple[Connector, ...]:
+    return tuple(
+        Connector(s.name, s.variable.causality, s.variable.type, s.variable.unit, s.value_reference)
+        for s in known
+        if s.variable.name.split(".")[0] in shown
+    )
+
+
 def _refuse(experiment: Experiment) -> None:
-    level = {"kind": "plane", "slope": 0.0}
+    ground, seed = experiment.ground, experiment.seed
+    rough = Ground(slope=ground.slope, roughness=getattr(ground, "roughness", 0.0), seed=seed)
+    most = int(PLANT_PARAMETERS["seed"].max or 0)
     for name, value, fits, allowed in (
         ("robot", experiment.robot, isinstance(experiment.robot, str), "a name or a file"),
-        ("mi", experiment.mi, isinstance(experiment.mi, float | int), "one value"),
-        ("turn", experiment.turn, experiment.turn == 0.0, "0"),
+        ("mi", experiment.mi, isinstance(experiment.mi, float), "one value"),
+        ("turn", experiment.turn, isinstance(experiment.turn, float), "one value"),
         ("reset", experiment.reset, experiment.reset is False, "false"),
-        ("conditions", experiment.conditions, isinstance(experiment.conditions, str), "a name"),
-        ("ground", experiment.ground, experiment.ground.to_dict() == level, "the level plane"),
-    ):
+        ("conditions", experiment.conditions, _condition(experiment) is not None,
+         "one, named, and a payload"),
+        ("ground", ground.text(), ground.flat or ground == rough,
+         "a plane, or obstacles with the seed of the system"),
+        ("seed", seed, seed <= most, f"0 to {most}"),
+        ("fmu", experiment.fmu, experiment.fmu is None, "the built one"),
+    ):  # fmt: skip
         if not fits:
             raise UnfitExperimentError(f"{name} = {value} of a system; allowed: {allowed}")
 
 
-def _controller_starts(experiment: Experiment, naming: str) -> list[Start]:
-    """``MI`` and the whole preset, but flags and enumerations only where they are not the default.
+def _condition(experiment: Experiment) -> tuple[Condition, float] | None:
+    """Condition of an experiment by name, and what its payload exceeds that of the name by [kg]."""
+    wanted = experiment.conditions
+    if isinstance(wanted, str):
+        return Condition[wanted], 0.0
+    if not isinstance(wanted, Conditions):
+        return None
+    for name, known in CONDITIONS.items():
+        more = wanted.payload - known.payload
+        if more >= 0.0 and replace(wanted, payload=known.payload) == known:
+            return Condition[name], more
+    return None
 
-    FMPy takes every flag of a parameter set for true, and libcosim knows no enumerations.
+
+def _controller_starts(experiment: Experiment, naming: str) -> list[Start]:
+    """Inputs and the whole preset, but flags only where they are not the default.
+
+    FMPy takes every flag of a parameter set for true.
     """
     known: dict[str, list[Scalar]] = {}
     for scalar in scalars(len(experiment.description.legs), naming):
         known.setdefault(scalar.variable.name, []).append(scalar)
-    starts = [Start(CONTROLLER, "MI", Type.real, float(experiment.mi), "1")]  # type: ignore[arg-type]
-    values = experiment.parameters()
-    for v in rows(Causality.parameter):
+    given = {"MI": experiment.mi, "turn": experiment.turn}
+    values = given | experiment.parameters()
+    starts = []
+    for v in (*map(row, _INPUTS_SET), *rows(Causality.parameter)):
         value = values[v.name]
-        if v.type in (Type.boolean, Type.enumeration) and value == v.start:
+        if v.type is Type.boolean and value == v.start:
             continue
-        if v.enumeration:
-            assert isinstance(value, int)
-            starts.append(Start(CONTROLLER, v.name, v.type, v.enumeration.items(value).name))
-            continue
+        kind = Type.integer if v.enumeration else v.type
         entries = value if isinstance(value, tuple | list) else [value]
-        for scalar, entry in zip(known[v.name], entries, strict=False):
-            starts.append(Start(CONTROLLER, scalar.name, v.type, entry, v.unit))
+        for s, entry in zip(known[v.name], entries, strict=False):
+            plain = int(entry) if kind is Type.integer else entry
+            starts.append(Start(CONTROLLER, s.name, kind, plain, v.unit, s.value_reference))
     return starts
 
 
-def _plant_starts(experiment: Experiment, naming: str) -> list[Start]:
-    """What a walk sets; the numbers of the robot are in its FMU."""
-    assert isinstance(experiment.conditions, str)
-    own = {"seed": experiment.seed, "condition": Condition[experiment.conditions].value}
+def _plant_starts(
+    experiment: Experiment, naming: str, numbers: Mapping[str, Setting]
+) -> list[Start]:
+    """All parameters of the plant: those of the robot have the values of its file."""
+    found = _condition(experiment)
+    assert found is not None
+    condition, payload = found
+    own: dict[str, Setting] = {
+        "seed": experiment.seed,
+        "roughness": getattr(experiment.ground, "roughness", 0.0),
+        "slope": experiment.ground.slope,
+        "payload": payload,
+        "condition": condition.value,
+        "step": experiment.step,
+    }
+    free = [name for name in PLANT_PARAMETERS if name not in own]
+    for name in numbers:
+        if name not in free:
+            raise ValueError(f"number '{name}' of the robot is not one of {', '.join(free)}")
     model = plant_build(experiment, naming).model()
-    return [
-        Start(PLANT, name, model.type_of(v), own.get(name, model.start(v)[0]), v.unit)
-        for name in _PLANT_STARTS
-        for v in (model.row(name),)
-    ]
+    starts = []
+    for s in model.scalars():
+        v = s.variable
+        if v.causality is not Causality.parameter:
+            continue
+        value = checked_in(v, (own | dict(numbers)).get(v.name, model.start(v)[0]))
+        assert not isinstance(value, tuple)
+        starts.append(Start(PLANT, s.name, model.type_of(v), value, v.unit, s.value_reference))
+    return starts
