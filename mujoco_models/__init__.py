@@ -1,1 +1,1 @@
-"""The same robots in MuJoCo: a second engine behind the plant, and MJCF for anybody else."""
+"""The same robots in MuJoCo: another engine behind the plant, and MJCF for anybody else."""

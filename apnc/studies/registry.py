@@ -48,7 +48,7 @@ STUDIES: Final = {
         Entry("departures", "Departures taken back", "", ("removed", "task")),
         Entry("sensitivity", "Numbers of the robot", "", ("change", "mi")),
         Entry("forward_model", "Forward models", "", ("model", "mi")),
-        Entry("engines", "Two engines", "", (ROBOT, "engine", "mi")),
+        Entry("engines", "Three engines", "", (ROBOT, "engine", "mi")),
         Entry("contact", "Integration step of the ground contact", "", ("depth", "steps")),
     )
 }
