@@ -1,4 +1,4 @@
-"""A sweep: every pair of two lists is one experiment, all walked side by side, figures as a table."""
+"""A sweep: every pair of two lists is one experiment, all walked side by side, then a table."""
 
 import csv
 import math
