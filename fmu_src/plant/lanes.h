@@ -18,7 +18,8 @@
 
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
-#elif defined(__GNUC__)
+#endif
+#if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wpsabi" /* whatever takes vectors is inlined */
 #endif
 
@@ -99,7 +100,7 @@ INL V v_sqrt(V a) {
 #ifdef LANES_SQRT
     return __builtin_elementwise_sqrt(a);
 #else
-    V b;
+    V b = a;
     for (int i = 0; i < PLANT_WIDTH; i++) b[i] = sqrt(a[i]);
     return b;
 #endif
