@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 from typer import Context, Option
 
-from apnc.cli.console import File, Texts, say, status, writable
+from apnc.cli.console import File, Number, Texts, say, status, writable
 
 _NAMING = "structured, flat: leg[1].grf, leg1_grf."
 
@@ -40,24 +41,36 @@ def build_system(
     robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
     mi: Annotated[float, Option(help="Modulatory input at the start.")] = 0.08,
-    seed: Annotated[int, Option(help="Of noise and asymmetry.")] = 0,
+    seed: Annotated[int, Option(help="Of noise, asymmetry and obstacles.")] = 0,
     condition: Annotated[str, Option(help="C1 to C4, S1 to S3.")] = "C1",
+    payload: Annotated[float, Option(help="Box on the trunk, on top of the condition's [kg].")] = 0,
+    roughness: Annotated[Number, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
+    slope: Annotated[Number, Option(help="Rise of the ground along x [deg].")] = None,
+    turn: Annotated[float, Option(help="-1 right ... 1 left.")] = 0.0,
     method: Annotated[str, Option(help="Controller.")] = "apnc",
     preset: Annotated[str, Option(help="robot, lilibot, paper.")] = "robot",
     rate: Annotated[float, Option(help="Update rate [Hz].")] = 60.0,
-    setting: Annotated[Texts, Option("--set", help="Parameter, NAME=VALUE; repeatable.")] = None,
+    setting: Annotated[Texts, Option("--set", help="NAME=VALUE; servo.stiffness=20 too.")] = None,
     memory: Annotated[File, Option(help="Learned gait to start with.")] = None,
     duration: Annotated[float, Option(help="End of the default experiment [s].")] = 45.0,
     platform: Annotated[Texts, Option(help="As for build; this one if omitted.")] = None,
 ) -> None:
-    """Build controller and robot, connected: an SSP archive, and a folder that OSP reads too."""
+    """Build controller and robot, connected: an SSP archive, and a folder for OSP and for C."""
     from apnc.cli.build import platform_names
     from apnc.cli.walk import experiment_of
     from apnc.system.build import build_system as build
-    from apnc.system.structure import system_name
+    from apnc.system.structure import plant_setting, system_name
+    from apnc_plant.conditions import named_conditions
 
     with status("building"):
-        experiment = experiment_of(context.params | {"mi": str(mi)})
+        numbers = dict(filter(None, map(plant_setting, setting or ())))
+        own = [text for text in setting or () if plant_setting(text) is None]
+        words = context.params | {"mi": str(mi), "turn": str(turn), "setting": own}
+        experiment = experiment_of(words)
+        if payload:
+            named = named_conditions(condition)
+            loaded = replace(named, payload=named.payload + payload)
+            experiment = replace(experiment, conditions=loaded)
         output = writable(output or Path(f"{system_name(robot)}.ssp"), file=True)
-        folder = build(output, experiment, naming, platform_names(platform or ["host"]))
-    say(f"{output}, and unpacked with OspSystemStructure.xml: {folder}/")
+        folder = build(output, experiment, naming, platform_names(platform or ["host"]), numbers)
+    say(f"{output}, and unpacked with OspSystemStructure.xml and system.h: {folder}/")
