@@ -1,7 +1,8 @@
 """``python -m apnc.studies.search --output runs/search``; needs the extra ``search``.
 
 All runs of a generation walk in C, side by side. Writes every candidate with its costs to
-``search.csv``. The same seed gives the same search, whatever the number of workers. ``apnc.studies.search.front`` finds the best of all candidates of some logs.
+``search.csv``. The same seed gives the same search, whatever the number of workers.
+``apnc.studies.search.front`` finds the best of all candidates of some logs.
 """
 
 from __future__ import annotations
