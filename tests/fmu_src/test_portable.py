@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import subprocess
 import sys
@@ -12,21 +11,25 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from native_driver import HEADERS, OUTPUTS, drive, drive3, load
+from binaries import (
+    exports,
+    lief,
+    needed_of_glibc,
+    oldest_mac,
+    part_of_windows,
+    slice_of,
+    standard_functions,
+)
+from native_driver import OUTPUTS, drive, drive3, load
 from slave import TS, slave
 
 from apnc_core.enumerations import KappaRule, Method
 from build_fmu.build import cached_fmu, fmu_bytes, host_fmu
 from build_fmu.options import MODEL, PLATFORMS, BuildOptions, host_platform
 
-lief = pytest.importorskip("lief", reason="lief is missing (PyPI package lief)")
-
 LINUX = ["linux64", "aarch64-linux"]
-MAC = ["darwin64", "aarch64-darwin"]
 MINUTE = 3600
 ALWAYS_COUPLED = {"kappa_rule": KappaRule.printed.value}
-LINKERS_OWN = {"__dso_handle", "_mh_dylib_header"}
-"""Marks that zig's linker sets in every Mach-O library and has no option to hide."""
 
 
 @pytest.fixture(scope="session")
@@ -49,36 +52,6 @@ def scratch(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def library_path(unpacked: Path, platform: str) -> Path:
     return unpacked / "binaries" / platform / (MODEL + PLATFORMS[platform].suffix)
-
-
-def standard_functions(fmi: int = 2) -> set[str]:
-    """Functions of co-simulation, from the header of the standard."""
-    header = (HEADERS / f"fmi{fmi}Functions.h").read_text()
-    if fmi == 3:  # every library offers those of all kinds of FMU
-        return set(re.findall(r"FMI3_Export\s+\w+TYPE\s+(\w+);", header))
-    common = header[header.rindex("\nCommon Functions") :]  # behind the renaming macros
-    before, _, rest = common.partition("Functions for FMI2 for Model Exchange")
-    _, _, after = rest.partition("Functions for FMI2 for Co-Simulation")
-    return set(re.findall(r"FMI2_Export\s+\w+TYPE\s+(\w+);", before + after))
-
-
-def slice_of(path: Path, platform: str) -> object:
-    """The binary for a platform; one of two in a universal file for Macs."""
-    if PLATFORMS[platform].suffix != ".dylib":
-        return lief.parse(str(path))
-    kind = lief.MachO.Header.CPU_TYPE
-    wanted = kind.ARM64 if platform == "aarch64-darwin" else kind.X86_64
-    return lief.MachO.parse(str(path)).take(wanted)
-
-
-def exports(library: object) -> set[str]:
-    if isinstance(library, lief.PE.Binary):
-        return {entry.name for entry in library.get_export().entries}
-    if isinstance(library, lief.MachO.Binary):
-        return {
-            s.name.removeprefix("_") for s in library.symbols if s.has_export_info
-        } - LINKERS_OWN
-    return {s.name for s in library.exported_symbols}  # type: ignore[attr-defined]
 
 
 def test_the_standard_has_34_functions_for_co_simulation_and_75_in_version_3() -> None:
@@ -114,13 +87,7 @@ def test_linux_needs_nothing_newer_than_glibc_2_17(unpacked: Path, platform: str
     library = lief.parse(str(library_path(unpacked, platform)))
     # floor comes from libm where the processor has no instruction for it
     assert {"libc.so.6"} <= set(library.libraries) <= {"libc.so.6", "libm.so.6"}
-    needed = {
-        a.name for r in library.symbols_version_requirement for a in r.get_auxiliary_symbols()
-    }
-    assert needed
-    for version in needed:
-        assert re.fullmatch(r"GLIBC_2(\.\d+)+", version)
-        assert tuple(map(int, version[len("GLIBC_") :].split("."))) <= (2, 17), version
+    assert needed_of_glibc(library) <= (2, 17)
 
 
 @pytest.mark.parametrize("platform", LINUX)
@@ -133,11 +100,7 @@ def test_linux_leaves_no_symbol_without_a_library(unpacked: Path, platform: str)
 
 def test_windows_needs_only_what_windows_10_has(unpacked: Path) -> None:
     library = lief.parse(str(library_path(unpacked, "win64")))
-    # the universal C runtime and the kernel are parts of the system since Windows 10
-    part_of_the_system = re.compile(r"kernel32\.dll|api-ms-win-crt-\w+-l1-1-0\.dll")
-    names = {entry.name.lower() for entry in library.imports}
-    assert names
-    assert [name for name in names if not part_of_the_system.fullmatch(name)] == []
+    assert part_of_windows(library)
     system = library.optional_header
     assert (system.major_subsystem_version, system.minor_subsystem_version) <= (10, 0)
 
@@ -153,7 +116,7 @@ def test_mac_needs_only_the_system_library(
     assert own == [f"@rpath/{MODEL}.dylib"]
     needed = {entry.name for entry in library.libraries} - set(own)
     assert needed == {"/usr/lib/libSystem.B.dylib"}
-    assert list(library.build_version.minos) == oldest
+    assert oldest_mac(library) == oldest
     # Apple silicon refuses unsigned code
     assert library.has_code_signature or platform == "darwin64"
 

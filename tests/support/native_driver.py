@@ -96,7 +96,25 @@ def drive(
     numbers += [len(settings), *pairs]
     numbers += [s.value_reference for s in OUTPUTS]
     library = fmu / "binaries" / folder / (MODEL + PLATFORMS[folder].suffix)
-    return _run("driver.c", folder, scratch, library, guid, numbers)
+    return _run("driver.c", folder, scratch, library, guid, numbers, len(OUTPUTS))
+
+
+def drive_plant(
+    folder: str, fmu: Path, scratch: Path, ticks: int, settings: dict[str, int]
+) -> np.ndarray:
+    """As ``drive``, of a robot that is commanded; settings are its Integers and enumerations."""
+    description = fmpy.read_model_description(str(fmu), validate=False)
+    reference = {v.name: v.valueReference for v in description.modelVariables}
+    commands = [v.valueReference for v in description.modelVariables if v.causality == "input"]
+    outputs = [
+        v.valueReference
+        for v in description.modelVariables
+        if v.causality == "output" and v.type == "Real"
+    ]
+    pairs = [x for name, value in settings.items() for x in (reference[name], value)]
+    numbers = [ticks, 100, len(commands) - 1, *commands, len(settings), *pairs, *outputs]
+    library = fmu / "binaries" / folder / (description.modelName + PLATFORMS[folder].suffix)
+    return _run("plant_driver.c", folder, scratch, library, description.guid, numbers, len(outputs))
 
 
 def drive3(
@@ -109,11 +127,17 @@ def drive3(
     numbers += [s.value_reference for s in OUTPUTS if s.element == 0]
     platform = PLATFORMS[folder]
     library = fmu / "binaries" / platform.folder_for(3) / (MODEL + platform.suffix)
-    return _run("driver3.c", folder, scratch, library, token, numbers)
+    return _run("driver3.c", folder, scratch, library, token, numbers, len(OUTPUTS))
 
 
 def _run(
-    source: str, folder: str, scratch: Path, library: Path, token: str, numbers: list[int]
+    source: str,
+    folder: str,
+    scratch: Path,
+    library: Path,
+    token: str,
+    numbers: list[int],
+    columns: int,
 ) -> np.ndarray:
     how = runner(folder, scratch)
     libraries = () if folder == "win64" else ("-ldl",)
@@ -129,7 +153,7 @@ def _run(
     assert done.returncode == 0, done.stderr
     rows = [[int(word, 16) for word in line.split()] for line in done.stdout.splitlines()]
     bits = np.array(rows, dtype=np.uint64)
-    assert bits.shape == (numbers[0], len(OUTPUTS))
+    assert bits.shape == (numbers[0], columns)
     return bits
 
 

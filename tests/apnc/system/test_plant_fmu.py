@@ -497,6 +497,17 @@ def test_a_saved_state_continues_bit_for_bit(path: Path, chosen: dict[str, float
         robot.freeFMUstate(state)
 
 
+def test_a_state_of_another_robot_is_refused(path: Path) -> None:
+    with plant(path) as own, plant(plant_fmu(PlantBuild("hexapod", platforms=HOST))) as other:
+        other.start()
+        foreign = other.serializeFMUstate(other.getFMUstate())
+        own.start()
+        with pytest.raises(FMICallException, match="error"):
+            own.deSerializeFMUstate(foreign)
+        assert "another build of the FMU" in own.messages[-1]
+        own.step()
+
+
 @contextmanager
 def plant3(path: Path) -> Iterator[Any]:
     description = fmpy.read_model_description(str(path))

@@ -8,6 +8,10 @@
 #include "fmi2FunctionTypes.h"
 #include "importer.h"
 
+#ifndef SCALE
+#define SCALE 1.0 /* of the inputs */
+#endif
+
 static void check(fmi2Status status, const char *what) {
     if (status <= fmi2Warning) return;
     fprintf(stderr, "%s returned %d\n", what, (int)status);
@@ -62,7 +66,7 @@ int main(int argc, char **argv) {
     check(fmi2SetInteger(c, integer, n_integer, setting), "fmi2SetInteger");
     check(fmi2ExitInitializationMode(c), "fmi2ExitInitializationMode");
     for (long tick = 0; tick < ticks; tick++) {
-        for (size_t i = 0; i < n_in; i++) loads[i] = load(&seed, tick, (int)i);
+        for (size_t i = 0; i < n_in; i++) loads[i] = SCALE * load(&seed, tick, (int)i);
         loads[n_in] = MI;
         check(fmi2SetReal(c, in, n_in + 1, loads), "fmi2SetReal");
         check(fmi2DoStep(c, (double)tick * TS, TS, fmi2True), "fmi2DoStep");
