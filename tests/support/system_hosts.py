@@ -1,8 +1,7 @@
 """Tools that run a system of controller and plant, each in a process of its own.
 
 ``python system_hosts.py HOST FOLDER SECONDS OUT``: FOLDER is what ``apnc build-system`` unpacked,
-beside its archive; OUT becomes an npz file. Hosts in Python sometimes crash when they end, after
-right results, so results are written first.
+beside its archive; OUT becomes an npz file.
 """
 
 # ruff: noqa: PLC0415  # one tool at a time is there
@@ -12,6 +11,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -113,11 +113,11 @@ def omsimulator(folder: Path, seconds: float) -> tuple[Array, float]:
     return _loop(model.doStep, lambda: [model.getValue(name) for name in wanted], seconds)
 
 
-def container(folder: Path, seconds: float) -> tuple[Array, float]:
+def container(folder: Path, seconds: float, *, in_order: bool = False) -> tuple[Array, float]:
     import fmpy
     from fmpy import fmi2
 
-    path = str(_container_of(folder))
+    path = str(_container_of(folder, in_order=in_order))
     description = fmpy.read_model_description(path)
     reference = {v.name: v.valueReference for v in description.modelVariables}
     fmu = fmi2.FMU2Slave(
@@ -135,11 +135,13 @@ def container(folder: Path, seconds: float) -> tuple[Array, float]:
     return _loop(lambda: fmu.doStep(next(ticks) * TICK, TICK), lambda: fmu.getReal(wanted), seconds)
 
 
-def _container_of(folder: Path) -> Path:
+def _container_of(folder: Path, *, in_order: bool) -> Path:
     from fmu_manipulation_toolbox.assembly import Assembly
 
     directory, archive = folder.parent, f"{folder.name}.ssp"
     assembly = Assembly(archive, default_step_size=TICK, fmu_directory=directory)
+    # the argument of Assembly, and the option -sequential, do not reach what is made of an SSP
+    assembly.root.sequential = in_order
     fmus = dict(zip(("controller", "plant"), assembly.root.fmu_names_list, strict=True))
     for part, each in names(folder).items():
         for name in each:
@@ -169,6 +171,7 @@ HOSTS: Final[dict[str, Callable[[Path, float], tuple[Array, float]]]] = {
     "ecos": ecos,
     "omsimulator": omsimulator,
     "container": container,
+    "container-in-order": partial(container, in_order=True),
 }
 
 
