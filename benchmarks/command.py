@@ -70,12 +70,16 @@ def main(benchmarks: Mapping[str, Benchmark], about: str | None) -> None:
         print(f"- {key}: {value}")
     if size.quick:
         print("\nQuick: the figures mean nothing.")
+    aimed_at: list[Row] = []
     for name in options.only:
         print(f"measuring: {name}", file=sys.stderr, flush=True)
         before = load()
         rows = benchmarks[name](size)
-        loads = f"load {before} before, {load()} after"
-        print(f"\n## {name}\n\n{loads}, {size.rounds} rounds\n\n{markdown(rows)}", flush=True)
+        loads = f"Load {before} before, {load()} after."
+        print(f"\n## {name}\n\n{loads}\n\n{markdown(rows)}", flush=True)
+        aimed_at += [row for row in rows if row.aim]
         found["tables"][name] = {"load": loads, "rows": [row.to_dict() for row in rows]}
         if options.json:
             options.json.write_text(json.dumps(found, indent=2) + "\n")
+    if len(options.only) > 1:
+        print(f"\n## What has an aim\n\n{markdown(aimed_at)}")

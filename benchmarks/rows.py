@@ -114,15 +114,15 @@ def children_s() -> float:
 def markdown(rows: Iterable[Row]) -> str:
     """The rows as a table."""
     head = (
-        "what", "unit", "least", "median", "times as fast as", "median of rounds", "least by least",
+        "what", "unit", "rounds", "least", "median", "against", "times as fast", "least by least",
         "aim", "met", "note",
     )  # fmt: skip
     lines = ["| " + " | ".join(cells) + " |" for cells in (head, ["---"] * len(head))]
     for row in rows:
         cells = (
-            row.what, row.unit, _number(min(row.values)), _number(statistics.median(row.values)),
-            row.against, _number(row.ratio), _number(row.ratio_of_least), row.aim, row.met,
-            row.note,
+            row.what, row.unit, str(len(row.values)), _number(min(row.values)),
+            _number(statistics.median(row.values)), row.against, _number(row.ratio),
+            _number(row.ratio_of_least), row.aim, row.met, row.note,
         )  # fmt: skip
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
