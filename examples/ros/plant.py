@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The robot in Exudyn as a ROS 1 node, in real time: a stand-in for the real one.
+"""The robot in plain C as a ROS 1 node, in real time: a stand-in for the real one.
 
 Subscribes to ``joint_commands`` (JointState [rad]). Publishes ``foot_loads`` (Float64MultiArray
 [N]), ``joint_states`` (JointState) and ``trunk`` (PoseStamped).
@@ -25,7 +25,9 @@ class Node:
 
     def __init__(self) -> None:
         experiment = Experiment(
-            robot=rospy.get_param("~robot", "lilibot"), seed=int(rospy.get_param("~seed", 0))
+            robot=rospy.get_param("~robot", "lilibot"),
+            seed=int(rospy.get_param("~seed", 0)),
+            engine="compiled",
         )
         self.plant, self.Ts = plant_of(experiment), experiment.Ts
         self.legs = self.plant.legs

@@ -20,6 +20,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 OBSERVER = ROOT / "tests" / "support" / "ros_observer.py"
 DEBIAN = "/usr/lib/python3/dist-packages"
+"""Where Debian's rospy lies, which a Python that is not Debian's does not look into."""
 
 pytestmark = [
     pytest.mark.skipif(shutil.which("roslaunch") is None, reason="roslaunch is not installed"),
@@ -38,13 +39,17 @@ def free_port() -> int:
 def ros(tmp_path: Path) -> Iterator[dict[str, str]]:
     """A roscore on the loopback interface, and the environment of its nodes."""
     port = free_port()
+    customised = tmp_path / "customised"
+    customised.mkdir()
+    # Debian's packages come last, as in an environment with --system-site-packages: in PYTHONPATH
+    # they would come first, and cffi refuse the library of another cffi that lies there
+    (customised / "sitecustomize.py").write_text(f"import sys\nsys.path.append({DEBIAN!r})\n")
     environment = os.environ | {
         "ROS_MASTER_URI": f"http://127.0.0.1:{port}",
         "ROS_IP": "127.0.0.1",
         "ROS_HOME": str(tmp_path / "ros"),
         "ROS_PACKAGE_PATH": str(ROOT / "examples"),
-        # where Debian's rospy lies, for a Python that is not Debian's
-        "PYTHONPATH": DEBIAN,
+        "PYTHONPATH": str(customised),
         "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
     }
     core = subprocess.Popen(
@@ -91,7 +96,8 @@ def test_the_trot_forms_and_comes_back_when_the_node_dies(
         assert np.median(ticks) == pytest.approx(1 / 60, abs=1e-3)
         assert memory.is_file()
 
-        subprocess.run(["pkill", "-KILL", "-f", "controller.py.*__name:=controller"], check=True)
+        node = ["pkill", "-KILL", "-P", str(launch.pid), "-f", "__name:=controller"]
+        subprocess.run(node, check=True)
         again = observe(ros, 12.0)
         ticks_of = [int(report["tick"]) for report in again["reports"]]
         fresh = [n for n, (a, b) in enumerate(itertools.pairwise(ticks_of)) if b < a]
