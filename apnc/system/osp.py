@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 from lxml import etree
@@ -10,6 +11,8 @@ from apnc.system.ssp import value_text
 from apnc.system.structure import Structure
 
 OSP_FILE: Final = "OspSystemStructure.xml"
+NANOSECONDS: Final = 1e9
+"""In a second."""
 
 _NAMESPACE: Final = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
 
@@ -17,10 +20,11 @@ _NAMESPACE: Final = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
 def osp(structure: Structure) -> bytes:
     """OspSystemStructure.xml.
 
-    Pitfall: its steps are whole nanoseconds, so the step is rounded to one.
+    Pitfall: its steps are whole nanoseconds. The step is the longest that is no longer than a tick:
+    with longer ones time runs ahead, until two ticks of the controller fall into one step.
     """
     root = etree.Element("OspSystemStructure", xmlns=_NAMESPACE, version="0.1")
-    step = f"{structure.step:.9f}"
+    step = f"{math.floor(structure.step * NANOSECONDS + 1e-3) / NANOSECONDS:.9f}"
     etree.SubElement(root, "StartTime").text = "0"
     etree.SubElement(root, "BaseStepSize").text = step
     etree.SubElement(root, "Algorithm").text = "fixedStep"

@@ -111,7 +111,7 @@ def _step(n: int, step: float, nanoseconds: bool) -> tuple[float, float]:
     """Begin and length of a step [s]."""
     if not nanoseconds:
         return n * step, step
-    begin, end = (k * round(1e9 * step) / 1e9 for k in (n, n + 1))
+    begin, end = (k * int(1e9 * step) / 1e9 for k in (n, n + 1))
     return begin, end - begin
 
 

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 TICK: Final = 1.0 / 60.0
 SYSTEM: Final = "Lilibot"
-NANOSECONDS: Final = 16_666_667
+NANOSECONDS: Final = 16_666_666
 STRUCTURED: Final = {
     "controller": [f"leg[{i}].{x}" for x in ("o1", "o2") for i in range(1, 5)],
     "plant": [f"leg[{i}].grf" for i in range(1, 5)] + [f"position.{x}" for x in "xyz"],

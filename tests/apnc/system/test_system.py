@@ -17,6 +17,7 @@ from apnc import Experiment
 from apnc.cli import main as command_line
 from apnc.loop.gait import Gait, write_gait
 from apnc.system.build import build_system
+from apnc.system.osp import osp
 from apnc.system.structure import structure_of
 from apnc_core.enumerations import Method
 from apnc_core.interface import Parameters
@@ -110,7 +111,15 @@ def test_osp_connects_the_same(folder: Path) -> None:
     ]
     assert found == ends(folder)
     (step,) = root.iterfind(f"{OSP}BaseStepSize")
-    assert abs(float(step.text) - 1 / 60) < 1e-9 and len(step.text) == len("0.016666667")
+    assert step.text == "0.016666666"
+    assert [s.get("stepSize") for s in root.iter(f"{OSP}Simulator")] == [step.text] * 2
+
+
+@pytest.mark.parametrize(("rate", "step"), [(50.0, "0.020000000"), (90.0, "0.011111111")])
+def test_the_step_of_osp_is_never_longer_than_a_tick(rate: float, step: str) -> None:
+    """With longer ones two ticks fall into one step after a minute."""
+    root = etree.fromstring(osp(structure_of(Experiment(rate=rate))))
+    assert root.find(f"{OSP}BaseStepSize").text == step
 
 
 def values(file: Path) -> dict[str, str]:
