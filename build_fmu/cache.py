@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 import tempfile
+import threading
 from functools import cache
 from pathlib import Path
 
@@ -47,8 +48,8 @@ def _temporary() -> Path:
 
 
 def write_atomically(path: Path, content: bytes) -> None:
-    """Write so that a reader, or a second build, never sees half a file."""
+    """Write so that a reader, or a second build in a process or thread, never sees half a file."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.{os.getpid()}.part")
+    part = path.with_name(f"{path.name}.{os.getpid()}.{threading.get_ident()}.part")
     part.write_bytes(content)
     part.replace(path)

@@ -6,13 +6,14 @@ import json
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
 from apnc.loop.csv_file import write_csv
 from apnc.loop.provenance import what_was_run
 from apnc.loop.record import Record, column_names
+from apnc.report.locks import one_at_a_time
 from apnc.report.page import render
 from apnc.summary import Summary, summarise
 
@@ -20,9 +21,15 @@ Write = Callable[[Path], object]
 
 _ASIDE: Final = ".writing-"
 
+LEFT_S: Final = 86400.0
+"""Age from which on what lies aside was left by a killed writer: no file takes a day [s]."""
+
 
 def write_together(folder: Path, files: Mapping[str, Write]) -> None:
     """Write files aside and put them in place when all of them are whole.
+
+    Any number may write to a folder at a time; of those that write the same files the last one's
+    stay, all of them.
 
     Args:
         folder: made if missing.
@@ -30,20 +37,26 @@ def write_together(folder: Path, files: Mapping[str, Write]) -> None:
 
     Raises:
         OSError: a file cannot be written; it names the file, and the folder is as it was before.
-
-    Pitfall: what a killed writer left aside is removed, so only one may write at a time.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    for left in folder.glob(f"{_ASIDE}*"):
-        shutil.rmtree(left, ignore_errors=True)
     aside = Path(tempfile.mkdtemp(prefix=_ASIDE, dir=folder))
     try:
+        _remove_what_was_left(folder, aside.stat().st_mtime)
         for name, write in files.items():
             with _naming(folder / name):
                 write(aside / name)
-        _exchange(aside, folder, list(files))
+        with one_at_a_time(folder):
+            _exchange(aside, folder, list(files))
     finally:
         shutil.rmtree(aside, ignore_errors=True)
+
+
+def _remove_what_was_left(folder: Path, now: float) -> None:
+    """Remove what killed writers left aside, by the clock of the file system."""
+    for left in folder.glob(f"{_ASIDE}*"):
+        with suppress(OSError):  # another has removed it
+            if now - left.stat().st_mtime > LEFT_S:
+                shutil.rmtree(left, ignore_errors=True)
 
 
 def _exchange(aside: Path, folder: Path, names: list[str]) -> None:

@@ -10,6 +10,7 @@ from collections import defaultdict
 from pathlib import Path
 from typing import Final
 
+from apnc.report.locks import locked
 from apnc.studies.rows import Row
 
 SYNC_S: Final = 1.0
@@ -31,6 +32,9 @@ class Store(contextlib.ExitStack):
         rows: by study, method and key; without a line that a kill has torn, which is dropped.
         wall_s: wall time that went by before each row [s], over all runs of the study; it is in
             the file, but not in the row: two runs give the same rows.
+
+    Raises:
+        ValueError: another study writes to the file.
     """
 
     def __init__(self, path: Path | None) -> None:
@@ -43,6 +47,9 @@ class Store(contextlib.ExitStack):
             return
         path.parent.mkdir(parents=True, exist_ok=True)
         self._file = self.enter_context(path.open("a+b"))
+        if not locked(self._file.fileno(), wait=False):
+            self.close()
+            raise ValueError(f"{path} is being written by another study; choose another folder")
         self._file.seek(0)
         *lines, torn = self._file.read().split(b"\n")
         self._file.truncate(self._file.tell() - len(torn))

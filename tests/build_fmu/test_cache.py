@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -55,3 +57,18 @@ def test_a_folder_that_others_can_write_is_not_trusted(no_home: Path) -> None:
 def test_a_link_is_not_followed(no_home: Path) -> None:
     (no_home / f"apnc-{os.getuid()}").symlink_to(no_home)
     assert cache.cache_folder() != no_home / f"apnc-{os.getuid()}"
+
+
+def test_threads_that_write_the_same_file_do_not_meet(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    both, replace = threading.Barrier(2), Path.replace
+
+    def together(part: Path, target: Path) -> Path:
+        both.wait(10)
+        return replace(part, target)
+
+    monkeypatch.setattr(Path, "replace", together)
+    with ThreadPoolExecutor(2) as threads:
+        list(threads.map(lambda _: cache.write_atomically(tmp_path / "x", b"whole"), range(2)))
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"x": b"whole"}

@@ -375,6 +375,18 @@ def test_the_disk_is_waited_for_once_a_second_and_at_the_end(
     assert waited == [1.1, 2.3, 2.4]
 
 
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such locks")
+def test_a_file_that_another_study_writes_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "trials.jsonl"
+    with Store(path) as kept:
+        kept.add(row("a"))
+        with pytest.raises(ValueError, match=r"trials\.jsonl is being written by another study"):
+            Store(path)
+        kept.add(row("b"))
+    with Store(path) as again:
+        assert [key for _, _, key in again.rows] == ["a", "b"]
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
 def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
     kept = Store(tmp_path / "t.jsonl")
