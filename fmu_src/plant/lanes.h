@@ -85,7 +85,7 @@ typedef double V __attribute__((vector_size(PLANT_WIDTH * sizeof(double))));
 typedef int64_t V_mask __attribute__((vector_size(PLANT_WIDTH * sizeof(double))));
 #define V_AT(v, i) ((v)[i])
 
-INL V v_all(double x) { return (V){0} + x; }
+INL V v_all(double x) { return x - (V){0}; } /* a sum would lose the sign of -0 */
 INL V v_select(V_mask m, V a, V b) { return (V)((m & (V_mask)a) | (~m & (V_mask)b)); }
 INL V v_min(V a, V b) { return v_select(a < b, a, b); }
 INL V v_max(V a, V b) { return v_select(a > b, a, b); }

@@ -8,7 +8,7 @@
 #include "plant.h"
 #include "robot.h"
 
-enum { PLANT_MOST_LANES = 8, PLANT_ALIGNMENT = 64 };
+enum { PLANT_MOST_LANES = 8, PLANT_ALIGNMENT = 64, PLANT_MOST_ENTRIES = 1 << 16 };
 
 typedef struct {
     int32_t kind, level;

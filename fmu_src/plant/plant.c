@@ -88,7 +88,8 @@ size_t plant_size(int32_t kind, int32_t level, int32_t legs, int32_t contacts, i
 }
 
 int32_t plant_history(double latency, double delay, double Ts) {
-    return (int32_t)ceil((latency > delay ? latency : delay) / Ts) + 3;
+    const double entries = ceil((latency > delay ? latency : delay) / Ts) + 3.0;
+    return entries < PLANT_MOST_ENTRIES ? (int32_t)entries : PLANT_MOST_ENTRIES;
 }
 
 void plant_create(void *memory, int32_t kind, int32_t level, int32_t legs, int32_t contacts,
@@ -194,8 +195,7 @@ static void start_under_way(void *plant, int32_t lane, double latency, double de
         h->coming_first = h->coming_count = 0;
         double wait = latency - Ts;
         int32_t before = 0;
-        for (; wait > TICK_NOW * Ts; wait -= Ts) before++;
-        if (before > h->history - 1) before = h->history - 1;
+        for (; wait > TICK_NOW * Ts && before < h->history - 1; wait -= Ts) before++;
         wait = latency;
         for (int32_t i = before - 1; i >= 0; i--) waits[i] = (wait -= Ts);
         h->coming_count = before;

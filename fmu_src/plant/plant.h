@@ -164,7 +164,7 @@ int32_t plant_lanes(int32_t kind, int32_t level);
  * under way, see plant_history. */
 size_t plant_size(int32_t kind, int32_t level, int32_t legs, int32_t contacts, int32_t history);
 
-/* Entries that latency and delay need if no tick is shorter than Ts [s]. */
+/* Entries that latency and delay need if no tick is shorter than Ts [s]; 65536 at most. */
 int32_t plant_history(double latency, double delay, double Ts);
 
 /* Make the bytes at `memory` (aligned to 64) a plant without robots. The arguments are those that

@@ -85,3 +85,13 @@ def test_a_robot_that_breaks_down_or_falls_leaves_its_neighbours_alone(
         ]  # fmt: skip
     for lane in found:
         assert lane.same
+
+
+def test_the_sign_of_a_zero_that_all_legs_share_is_kept(kind: tuple[int, int]) -> None:
+    def robot(lane: int, legs: int) -> Numbers:
+        fields = random_fields(np.random.default_rng(lane), legs)
+        limp = LATE["servo"] | {"stall_torque": -0.0}
+        return robot_of(changed(fields, servo=limp, sensor=LATE["sensor"]))
+
+    for lane in side_by_side(lib(), *kind, 5, [plane()], ticks=5, robot=robot):
+        assert lane.same
