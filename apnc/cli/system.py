@@ -55,7 +55,7 @@ def build_system(
     duration: Annotated[float, Option(help="End of the default experiment [s].")] = 45.0,
     platform: Annotated[Texts, Option(help="As for build; this one if omitted.")] = None,
 ) -> None:
-    """Build controller and robot, connected: an SSP archive, and a folder for OSP and for C."""
+    """Build controller and robot, connected: an SSP archive, and a folder for other tools."""
     from apnc.cli.build import platform_names
     from apnc.cli.walk import experiment_of
     from apnc.system.build import build_system as build
@@ -73,4 +73,4 @@ def build_system(
             experiment = replace(experiment, conditions=loaded)
         output = writable(output or Path(f"{system_name(robot)}.ssp"), file=True)
         folder = build(output, experiment, naming, platform_names(platform or ["host"]), numbers)
-    say(f"{output}, and unpacked with OspSystemStructure.xml and system.h: {folder}/")
+    say(f"{output}, and the same as a folder: {folder}/")

@@ -1,4 +1,4 @@
-"""Build a system: an SSP archive, and beside it the same as a folder for OSP and for C."""
+"""Build a system: an SSP archive, and beside it the same as a folder for other tools."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import Final
 from lxml import etree
 
 from apnc.loop.experiment import Experiment
+from apnc.system.container import CONTAINER_FILE, container
 from apnc.system.header import HEADER_FILE, header
 from apnc.system.osp import OSP_FILE, osp
 from apnc.system.plant_fmu import plant_fmu
@@ -23,7 +24,7 @@ from build_fmu.options import BuildOptions
 from build_fmu.package import zip_fmu
 from build_fmu.platforms import host_platform
 
-_BESIDE: Final = (OSP_FILE, HEADER_FILE)
+_BESIDE: Final = (OSP_FILE, CONTAINER_FILE, HEADER_FILE)
 """Files of the folder that are not in the archive."""
 
 
@@ -59,6 +60,7 @@ def system_files(
         **{ssv_file(part): ssv(structure, part) for part in fmus},
         **{part.source: content for part, content in fmus.items()},
         OSP_FILE: osp(structure),
+        CONTAINER_FILE: container(structure),
         HEADER_FILE: header(structure, {part.name: _guid(fmu) for part, fmu in fmus.items()}),
     }
 
@@ -82,7 +84,7 @@ def build_system(
         experiment, naming, platforms, numbers: see ``system_files``.
 
     Returns:
-        The folder: the archive unpacked, OspSystemStructure.xml and system.h.
+        The folder: the archive unpacked, OspSystemStructure.xml, container.json and system.h.
 
     Raises:
         ValueError: another suffix, or as ``system_files``.

@@ -113,11 +113,11 @@ def omsimulator(folder: Path, seconds: float) -> tuple[Array, float]:
     return _loop(model.doStep, lambda: [model.getValue(name) for name in wanted], seconds)
 
 
-def container(folder: Path, seconds: float, *, in_order: bool = False) -> tuple[Array, float]:
+def container(made: Callable[[Path], Path], folder: Path, seconds: float) -> tuple[Array, float]:
     import fmpy
     from fmpy import fmi2
 
-    path = str(_container_of(folder, in_order=in_order))
+    path = str(made(folder))
     description = fmpy.read_model_description(path)
     reference = {v.name: v.valueReference for v in description.modelVariables}
     fmu = fmi2.FMU2Slave(
@@ -135,13 +135,21 @@ def container(folder: Path, seconds: float, *, in_order: bool = False) -> tuple[
     return _loop(lambda: fmu.doStep(next(ticks) * TICK, TICK), lambda: fmu.getReal(wanted), seconds)
 
 
-def _container_of(folder: Path, *, in_order: bool) -> Path:
+def described_container(folder: Path) -> Path:
+    """The container of the system's own description."""
+    from fmu_manipulation_toolbox.assembly import Assembly
+
+    Assembly("container.json", fmu_directory=folder).make_fmu()
+    (made,) = folder.glob("*System.fmu")
+    return made
+
+
+def ssp_container(folder: Path) -> Path:
+    """The container of the SSP, with the start values that the tool leaves out."""
     from fmu_manipulation_toolbox.assembly import Assembly
 
     directory, archive = folder.parent, f"{folder.name}.ssp"
     assembly = Assembly(archive, default_step_size=TICK, fmu_directory=directory)
-    # the argument of Assembly, and the option -sequential, do not reach what is made of an SSP
-    assembly.root.sequential = in_order
     fmus = dict(zip(("controller", "plant"), assembly.root.fmu_names_list, strict=True))
     for part, each in names(folder).items():
         for name in each:
@@ -170,8 +178,8 @@ HOSTS: Final[dict[str, Callable[[Path, float], tuple[Array, float]]]] = {
     "libcosim-ssp": lambda folder, seconds: cosim("ssp", folder, seconds),
     "ecos": ecos,
     "omsimulator": omsimulator,
-    "container": container,
-    "container-in-order": partial(container, in_order=True),
+    "container": partial(container, described_container),
+    "container-ssp": partial(container, ssp_container),
 }
 
 

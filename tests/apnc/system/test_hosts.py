@@ -51,8 +51,8 @@ HOST = {
     "libcosim-osp": Host("libcosimpy", LATE | {"nanoseconds": True}),
     "libcosim-ssp": Host("libcosimpy", LATE | {"nanoseconds": True}),
     "ecos": Host("ecospy", LATE),
-    "container": Host("fmu_manipulation_toolbox", LATE),
-    "container-in-order": Host("fmu_manipulation_toolbox", {}),
+    "container": Host("fmu_manipulation_toolbox", {}),
+    "container-ssp": Host("fmu_manipulation_toolbox", LATE),
     "omsimulator": Host("OMSimulator", None),
 }
 
@@ -228,4 +228,10 @@ def test_every_start_value_acts_as_in_the_direct_loop(
     )
     folder = build_system(tmp_path / "Own.ssp", experiment, naming, numbers=numbers)
     lines = hosted_in_c(unpacked(folder), host_platform(), tmp_path)
-    assert_walks_as(simulate(replace(experiment, robot=own)), lines)
+    record = simulate(replace(experiment, robot=own))
+    assert_walks_as(record, lines)
+    if importlib.util.find_spec("fmu_manipulation_toolbox"):
+        out = tmp_path / "out.npz"
+        run(sys.executable, HOSTS, "container", folder, str(SECONDS), out)
+        with np.load(out) as seen:
+            np.testing.assert_array_equal(seen["position"][:-1], record.plant["position"][1:])

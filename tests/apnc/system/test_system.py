@@ -36,7 +36,7 @@ def folder(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
     return build_system(output, Experiment(mi=0.15, seed=3), request.param)
 
 
-def test_the_archive_is_the_folder_without_the_files_of_osp_and_c(folder: Path) -> None:
+def test_the_archive_is_the_folder_without_the_files_of_other_tools(folder: Path) -> None:
     with zipfile.ZipFile(folder.with_suffix(".ssp")) as archive:
         names = set(archive.namelist())
         assert names == {
@@ -47,7 +47,7 @@ def test_the_archive_is_the_folder_without_the_files_of_osp_and_c(folder: Path) 
         for name in names:
             assert archive.read(name) == (folder / name).read_bytes()
     assert {p.name for p in folder.iterdir() if p.is_file()} == {
-        "SystemStructure.ssd", "OspSystemStructure.xml", "system.h",
+        "SystemStructure.ssd", "OspSystemStructure.xml", "container.json", "system.h",
     }  # fmt: skip
 
 
