@@ -265,11 +265,6 @@ static apnc_status note_hurry(apnc_instance *instance, double duration) {
                        duration, age, HISTORY - 3);
 }
 
-static apnc_status broke_down(apnc_instance *instance, double when) {
-    return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                       "the motion diverged before t = %.9g s", when);
-}
-
 /* Parameters that were set since the last step come into force. */
 static void tune(apnc_instance *instance) {
     const plant_parameters *p = &((const plant_values *)instance->values)->parameters;
@@ -294,7 +289,8 @@ apnc_status apnc_model_step(apnc_instance *instance, double t, double h) {
 
     if (refuse_commands(instance, 0, hip) || refuse_commands(instance, 1, knee)) return APNC_ERROR;
     if (plant_state_of(plant, 0) == PLANT_DIVERGED)
-        return broke_down(instance, instance->run->time);
+        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
+                           "the motion has diverged: a reset or a saved state starts again");
     if (h < TOO_SHORT || plant_state_of(plant, 0) == PLANT_FELL) return APNC_OK;
     if (parts > APNC_MAX_TICKS_PER_STEP)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
@@ -310,7 +306,8 @@ apnc_status apnc_model_step(apnc_instance *instance, double t, double h) {
     } while (part < parts && plant_state_of(plant, 0) == PLANT_WALKS);
     instance->run->outdated = 1;
     if (plant_state_of(plant, 0) == PLANT_DIVERGED)
-        return broke_down(instance, t + part * duration);
+        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
+                           "the motion diverged before t = %.9g s", t + part * duration);
     if (plant_state_of(plant, 0) == PLANT_FELL)
         apnc_report(instance, APNC_OK, APNC_LOG_EVENTS, "fell at %.9g s", t + part * duration);
     return status;

@@ -212,6 +212,11 @@ def test_it_integrates_the_step_it_is_given(path: Path) -> None:
     ticks = place_after(path, [TS] * 30)
     assert place_after(path, [2 * TS] * 15) == ticks
     assert place_after(path, [TS] * 30 + [1.1e-15]) == ticks
+    # a tick that was rounded up is still one
+    direct = Plant(load_robot("lilibot"))
+    for _ in range(30):
+        direct.advance(np.array(WAVE[:4]), np.array(WAVE[4:]), 0.016666667)
+    assert place_after(path, [0.016666667] * 30) == list(direct.sample()["position"])
     # other steps are cut into other parts, which the integration resolves to less than a millimetre
     np.testing.assert_allclose(place_after(path, [0.001] * 500), ticks, atol=1e-3)
     assert place_after(path, [TS] * 31) != ticks
@@ -444,6 +449,7 @@ def test_a_motion_that_diverges_is_an_error_and_stays_one(path: Path) -> None:
         assert "the motion diverged before t =" in robot.messages[-1]
         with pytest.raises(FMICallException, match="error"):
             robot.step()
+        assert "the motion has diverged: a reset or a saved state" in robot.messages[-1]
         assert not robot.fell
         robot.reset()
         robot.start()
@@ -486,7 +492,7 @@ def test_a_saved_state_continues_bit_for_bit(path: Path, chosen: dict[str, float
         assert robot.serializeFMUstate(state) == blob
         assert walk_some(robot, range(50, 100)) == rest
         # into one that was never initialised, and one that stands on another ground
-        other.start(seed=99, roughness=0.3)
+        other.start(**(chosen | {"seed": 99}))
         walk_some(other, range(5))
         for instance in (fresh, other):
             moved = instance.deSerializeFMUstate(blob)
