@@ -65,11 +65,18 @@ class Run:
         surface = GroundInC(ground, robot.contact.foot_radius)
         start = start_coordinates(numbers, surface, PlantOptions())
         conditions = [conditions_numbers(c, names, robot.weight) for _, c in steps]
-        parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
-        starts, kept = controller.starts(parameters)
+        starts, kept = controller.starts(experiment.starts())
         ticks = experiment.ticks
-        self._samples = np.empty(ticks * sample_size(n_legs))
-        self._shown = np.empty(ticks * len(controller.recorded))
+        size = ticks * (sample_size(n_legs) + len(controller.recorded))
+        try:
+            table = np.empty(size)
+        except MemoryError:
+            raise ValueError(
+                f"duration = {experiment.duration:g} s: a record of {8e-9 * size:.0f} GB does not "
+                "fit into memory"
+            ) from None
+        self._samples, self._shown = np.split(table, [ticks * sample_size(n_legs)])
+        self._parameters = np.empty(len(controller.parameters))
         schedules = {name: _schedule(experiment, name) for name in ("mi", "turn", "reset")}
         fields = {
             "guid": controller.guid,
@@ -86,6 +93,7 @@ class Run:
             "condition": ffi.new("plant_conditions[]", [c.at[0] for c in conditions]),
             "plant_record": ffi.from_buffer("double[]", self._samples),
             "controller_record": ffi.from_buffer("double[]", self._shown),
+            "parameters": ffi.from_buffer("double[]", self._parameters),
         }
         self._surface = surface
         self._kept = (fields, numbers, conditions, kept, schedules)
@@ -126,7 +134,8 @@ class Run:
         ffi, lib = library()
         self._surface.check()
         message = ffi.string(self.at.message).decode(errors="replace")
-        if end is None and self.at.end == lib.LOOP_REFUSED:
+        refused = self.at.end == lib.LOOP_REFUSED
+        if end is None and refused:
             raise FmuError(message)
         ends = {
             lib.LOOP_COMPLETE: End.complete,
@@ -145,6 +154,7 @@ class Run:
             mass=self.mass,
             experiment=self.experiment,
             robot=robot,
+            parameters={} if refused else self._controller.parameters_of(self._parameters.tolist()),
             end=found,
             message=message,
             fmu_wall_s=float(self.at.controller_s),
