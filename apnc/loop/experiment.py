@@ -234,9 +234,12 @@ class Experiment:
         return values
 
     def starts(self) -> dict[str, Setting]:
-        """The same as the controller takes them: relations one by one, also where all are 0."""
+        """What the controller is set to: relations that are 0 only if it starts with others."""
         values = self.parameters()
-        values["phi_stored"] = values["phi_stored"] or (0.0,) * (len(self.description.legs) - 1)
+        if not values["phi_stored"]:
+            values["phi_stored"] = (0.0,) * (len(self.description.legs) - 1)
+            if "phi_stored" not in self.fmu_starts:
+                del values["phi_stored"]
         return values
 
     def changed(self) -> dict[str, Any]:
