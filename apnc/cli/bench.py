@@ -7,13 +7,11 @@ import json
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
-from apnc.cli.console import say, status, writable
+from apnc.cli.console import file_option, say, status, writable
 
 
 def bench(
-    output: Annotated[Path, typer.Option(help="JSON file to write.")] = Path("apnc-bench.json"),
+    output: Annotated[Path, file_option("JSON file to write.")] = Path("apnc-bench.json"),
 ) -> None:
     """Measure what a tick costs, against its arithmetic and against PythonFMU."""
     writable(output, file=True)
