@@ -1,4 +1,4 @@
-"""``apnc``: runs a command; a mistake is one line, and Ctrl-C is no traceback."""
+"""``apnc``: runs a command; a mistake is one line, and Ctrl-C or SIGTERM no traceback."""
 # ruff: noqa: PLC0415  # not even while the command line is imported
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import sys
 from itertools import pairwise
 from typing import Final
 
-from apnc.cli.interrupt import INTERRUPTED, NOTHING, STOP, Interrupted
+from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 
 BAD_USE: Final = 2
 
@@ -18,7 +18,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Run the command line.
 
     Exit codes: 0 done; 1 a robot that fell, a motion that diverged, a trial that failed; 2 a
-    mistake of the caller, one line on stderr; 130 interrupted.
+    mistake of the caller, one line on stderr; 130 interrupted, 143 terminated.
     """
     codecs.register_error("as_shown", _as_shown)
     for stream in (sys.stdout, sys.stderr):
@@ -29,7 +29,7 @@ def main(arguments: list[str] | None = None) -> None:
             code = _run(sys.argv[1:] if arguments is None else arguments)
         except Interrupted as request:
             sys.stderr.write(f"{request}\n")
-            code = INTERRUPTED
+            code = STOP.code
     sys.exit(code)
 
 
