@@ -10,7 +10,7 @@ import pytest
 
 from apnc.studies import gains
 from apnc.studies.contenders import CONTENDERS, RIVALS, contender
-from apnc.studies.rows import Row, matching
+from apnc.studies.rows import AUTHORS, Row, cells_in, matching
 from apnc_core.enumerations import Method
 
 ROWS = Path(__file__).parents[3] / "docs" / "data" / "evaluation.csv.gz"
@@ -43,13 +43,19 @@ def test_labels_stand_for_methods_of_the_fmu() -> None:
         assert label.removesuffix("_best") == contender(label).method
 
 
-def test_the_best_setting_of_each_baseline_is_that_of_the_rows() -> None:
+def test_no_setting_of_a_baseline_walks_more_often_than_its_best() -> None:
     rows = _rows_of_gains()
     if not rows:
         pytest.skip("docs/data/evaluation.csv.gz has no rows of the study 'gains'")
     for label, name in gains.PARAMETERS.items():
-        best = gains.best_setting(matching(rows, method=label))
-        assert contender(f"{label}_best").settings == {name: best}
+        own = matching(rows, method=label)
+        # with as many walks it is a matter of five seeds which of two gains is the quicker
+        count = {
+            gain: (gains.walks(part), gains.walks(part, AUTHORS))
+            for gain in cells_in(own, "gain")
+            for part in [matching(own, gain=gain)]
+        }
+        assert count[contender(f"{label}_best").settings[name]] == max(count.values())
 
 
 def _rows_of_gains() -> list[Row]:
