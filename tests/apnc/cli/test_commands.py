@@ -104,7 +104,7 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["build", "--robot", "cow"], "robot 'cow' is unknown; allowed: hexapod, lilibot, octopod"),
         (["build", "--robot", "hexapod", "--legs", "4"], "legs = 4: robot 'hexapod' has 6"),
         (["study", "mi", "--robot", "cow"], "robot 'cow' is unknown; allowed: hexapod, lilibot"),
-        (["study", "symmetry", "--robot", "hexapod"], "--robot"),
+        (["study", "gains", "--robot", "hexapod"], "--robot"),
         (["moo"], "moo"),
         (["walk", "--moo"], "--moo"),
         (["study", "mi", "--trials", "0"], "trials = 0 is not at least 1"),

@@ -42,8 +42,9 @@ def test_ctrl_c_during_the_imports_is_no_traceback(at: str, tmp_path: Path) -> N
     assert not (tmp_path / "apnc-walk" / "summary.json").exists()
 
 
-IN_C = ("mi", "--methods", "apnc", "--duration", "900")
-IN_PROCESSES = ("engines", "--engine", "exudyn", "--duration", "3")
+ROOT = Path(__file__).resolve().parents[3]
+IN_C = ("apnc", "study", "mi", "--methods", "apnc", "--duration", "900")
+IN_PROCESSES = ("research.engines", "--engine", "exudyn", "--duration", "3")
 
 
 @pytest.mark.parametrize(
@@ -54,13 +55,13 @@ IN_PROCESSES = ("engines", "--engine", "exudyn", "--duration", "3")
 def test_ctrl_c_in_a_study_also_reaches_workers_and_is_no_traceback(
     study: tuple[str, ...], at: str, tmp_path: Path
 ) -> None:
-    some = ("--trials", "4", "--mi", "0.08", "--workers", "2")
-    python = (sys.executable, "-X", "importtime", "-m", "apnc", "study", *study)
-    code, shown = interrupted(*python, *some, at=at, cwd=tmp_path)
+    some = ("--trials", "4", "--mi", "0.08", "--workers", "2", "--output", str(tmp_path / "out"))
+    python = (sys.executable, "-X", "importtime", "-m", *study)
+    code, shown = interrupted(*python, *some, at=at, cwd=ROOT)
     said = [line for line in shown.splitlines() if not line.startswith("import time:")]
     assert code == 130, said
     assert not any("Traceback" in line or "segmentation" in line for line in said)
-    store = tmp_path / f"apnc-study-{study[0]}" / "trials.jsonl"
+    store = tmp_path / "out" / "trials.jsonl"
     rows = store.read_text().splitlines() if store.exists() else []
     assert len(rows) < 4
     assert all(json.loads(row)["error"] == "" for row in rows)

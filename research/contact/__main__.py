@@ -1,0 +1,5 @@
+"""``python -m research.contact``."""
+
+from research.command import main
+
+main("contact")

@@ -1,0 +1,5 @@
+"""``python -m research.engines``."""
+
+from research.command import main
+
+main("engines")
