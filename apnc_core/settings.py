@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
+from apnc_core.in_python import in_python
 from apnc_core.schema import Causality, Shape, Type, Variable
 from apnc_core.variables import rows
 
@@ -44,6 +45,7 @@ def checked(name: str, value: object) -> Setting:
 
 def checked_in(row: Variable, value: object) -> Setting:
     """As ``checked``, of a row of any table."""
+    value = in_python(value)
     if row.shape is not Shape.scalar:
         if isinstance(value, str) or not isinstance(value, Sequence):
             raise _error(row.name, value, "a list of numbers")

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Final
 
 from apnc_core.frozen import Frozen
+from apnc_core.in_python import in_python
 
 ALL: Final = "*"
 """Stands for every leg of a robot."""
@@ -39,16 +40,17 @@ class Conditions:
 
     def __post_init__(self) -> None:
         """Check the values."""
-        numbers = {"payload": self.payload, "grf_noise": self.grf_noise}
-        numbers |= {f"stuck[{leg}]": value for leg, value in self.stuck.items()}
-        if self.held_at is not None:
-            numbers["held_at"] = self.held_at
-        for name, value in numbers.items():
-            if not (math.isfinite(value) and value >= 0.0):
-                raise ValueError(f"{name} is {value}; allowed: a finite number, 0 or more")
-        frozen = {"stuck": Frozen(self.stuck), "damaged": tuple(self.damaged)}
-        for name, entries in {**frozen, "dropout": tuple(self.dropout)}.items():
-            object.__setattr__(self, name, entries)
+        held = None if self.held_at is None else _size("held_at", self.held_at)
+        own = {
+            "payload": _size("payload", self.payload),
+            "grf_noise": _size("grf_noise", self.grf_noise),
+            "damaged": tuple(self.damaged),
+            "stuck": Frozen({k: _size(f"stuck[{k}]", v) for k, v in self.stuck.items()}),
+            "dropout": tuple(self.dropout),
+            "held_at": held,
+        }
+        for name, value in own.items():
+            object.__setattr__(self, name, value)
 
     def silent(self, legs: tuple[str, ...]) -> tuple[str, ...]:
         """Which of a robot's legs have a sensor that delivers 0."""
@@ -63,6 +65,14 @@ class Conditions:
         for leg in (*self.damaged, *self.stuck, *self.silent(legs)):
             if leg not in legs:
                 raise ValueError(f"leg {leg!r} is not one of {', '.join(legs)}")
+
+
+def _size(name: str, value: object) -> float:
+    number = in_python(value)
+    known = isinstance(number, int | float) and not isinstance(number, bool)
+    if known and math.isfinite(number) and number >= 0.0:
+        return float(number)
+    raise ValueError(f"{name} is {value}; allowed: a finite number, 0 or more")
 
 
 PAYLOAD: Final = 1.25

@@ -23,7 +23,7 @@ from apnc_plant.sensor.load import LoadSensor
 from apnc_plant.start import start_coordinates
 from apnc_plant.trace import Trace
 
-NOW: Final = 1e-9
+NOW: Final = 1e-6
 """Part of a tick within which two moments are one."""
 
 
@@ -246,7 +246,7 @@ class LeggedPlant:
             coming.append((wait - duration, targets))
 
     def _integrate(self, end: float, duration: float) -> None:
-        steps = max(1, math.ceil(duration / self._options.step - 1e-9))
+        steps = max(1, math.ceil(duration / self._options.step - NOW))
         self._forces.set_step(duration / steps)
         self.time = end
         moved = self._engine.advance(end, steps, self._q, self._v)

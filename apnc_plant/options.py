@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
+from apnc_core.in_python import in_python
 from apnc_plant.robot.model import GRAVITY
 
 
@@ -29,9 +30,12 @@ class PlantOptions:
 
     def __post_init__(self) -> None:
         """Refuse a step that is not positive and values that are not finite."""
-        if not (math.isfinite(self.step) and self.step > 0.0):
-            raise ValueError(f"step is {self.step}; allowed: a finite number above 0")
-        for name in ("gravity", "clearance", "start_hip", "start_knee"):
-            value = getattr(self, name)
-            if not math.isfinite(value):
-                raise ValueError(f"{name} is {value}; allowed: a finite number")
+        for name in (f.name for f in fields(self)):
+            value, allowed = in_python(getattr(self, name)), "a finite number"
+            fits = isinstance(value, int | float) and not isinstance(value, bool)
+            fits = fits and math.isfinite(value)
+            if name == "step":
+                fits, allowed = fits and value > 0.0, f"{allowed} above 0"
+            if not fits:
+                raise ValueError(f"{name} is {value}; allowed: {allowed}")
+            object.__setattr__(self, name, float(value))

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 
 from apnc_core import settings
+from apnc_core.in_python import in_python
 from apnc_core.interface import Parameters
 from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import MAX_LEGS, Causality, Value, Variable
@@ -59,6 +60,8 @@ class BuildOptions:
 
     def __post_init__(self) -> None:
         """Check the choices."""
+        for name in ("legs", "naming", "platforms", "fmi", "preset", "memory", "enumerations"):
+            object.__setattr__(self, name, in_python(getattr(self, name)))
         if not 2 <= self.legs <= MAX_LEGS:
             raise BuildError(f"legs = {self.legs} is not in 2 ... {MAX_LEGS}")
         if self.preset not in PRESETS:

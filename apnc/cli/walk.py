@@ -58,7 +58,7 @@ def walk(
     rate: Annotated[Number, Option(help="Update rate [Hz]; 60.0 if omitted.")] = None,
     step: Annotated[Number, Option(help="Longest integration step [s].")] = None,
     engine: Annotated[Text, Option(help="exudyn, mujoco, compiled; exudyn if omitted.")] = None,
-    fmu: Annotated[Text, Option(help="This FMU instead of the built one.")] = None,
+    fmu: Annotated[Text, Option(help="Of one's own; its start values hold unless set.")] = None,
     output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),
     json_file: Annotated[File, Option("--json", help="Write the summary here as well.")] = None,
     mcap: Annotated[File, Option(help="Write an MCAP log here (Foxglove, PlotJuggler).")] = None,

@@ -11,18 +11,19 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, Final
 
-import fmpy
-
 from apnc.loop.fmu_controller import (
     FmuError,
     Setting,
     check_fmu,
+    entries_of,
     members_by_name,
     names_in,
-    unknown_parameter,
+    parameter_of,
+    unpack,
 )
+from apnc_core import settings
 from apnc_core.schema import Causality, Type
-from apnc_core.variables import Scalar, scalars
+from apnc_core.variables import Scalar, row, scalars
 from apnc_plant.library import library
 from build_fmu.platforms import BuildError, library_of, why_not_loaded
 
@@ -58,6 +59,7 @@ class ControllerLibrary:
         functions, variables: ``loop_functions`` and ``loop_variables`` of C.
         recorded: variables in the order of a row of the record in C.
         sizes: how many entries each variable has in it, by name, in its order.
+        parameters: in the order in which C reads them back.
 
     Raises:
         FmuError: no FMU, not this controller, or no binary for this machine.
@@ -69,8 +71,8 @@ class ControllerLibrary:
         self._members = members_by_name(self.n_legs, self._naming)
         # the library stays loaded to the end of the process, and so does its folder
         self._folder = tempfile.TemporaryDirectory(prefix="apnc-", ignore_cleanup_errors=True)
-        fmpy.extract(str(path), unzipdir=self._folder.name)
         folder = Path(self._folder.name)
+        unpack(path, folder)
         try:
             with contextlib.chdir(folder):
                 self._library = ctypes.CDLL(str(library_of(folder)))
@@ -116,8 +118,35 @@ class ControllerLibrary:
         self.sizes = Counter(m.variable.name for m in self.recorded)
         self._references.append(ffi.new("int32_t[]", list(self.sizes.values())))
         sizes = {"sizes": self._references[-1], "n_sizes": len(self.sizes)}
-        fields = {"legs": self.n_legs, **named, **counts, **sizes}
+        read_back = self._read_back(members)
+        fields = {"legs": self.n_legs, **named, **counts, **sizes, **read_back}
         self.variables = ffi.new("loop_variables *", fields)
+
+    def _read_back(self, members: Sequence[Scalar]) -> dict[str, Any]:
+        """Which parameters C reads back, and in what order."""
+        ffi, _ = library()
+        groups: dict[str, list[Scalar]] = {"real": [], "integer": [], "boolean": []}
+        for member in members:
+            if member.variable.causality is Causality.parameter:
+                groups[_KINDS.get(member.variable.type, "integer")].append(member)
+        self.parameters = [member for group in groups.values() for member in group]
+        fields: dict[str, Any] = {}
+        for kind, group in groups.items():
+            references = ffi.new("uint32_t[]", [m.value_reference for m in group] or 1)
+            self._references.append(references)
+            fields |= {f"{kind}_parameters": references, f"n_{kind}_parameters": len(group)}
+        return fields
+
+    def parameters_of(self, values: Sequence[float]) -> dict[str, settings.Setting]:
+        """Parameters by row name, of what C has read back.
+
+        Args:
+            values: in the order of :attr:`parameters`.
+        """
+        entries: dict[str, list[float]] = {}
+        for member, value in zip(self.parameters, values, strict=True):
+            entries.setdefault(member.variable.name, []).append(value)
+        return {name: parameter_of(row(name), several) for name, several in entries.items()}
 
     def starts(self, parameters: Mapping[str, Setting]) -> tuple[Any, tuple[Any, ...]]:
         """Start values as ``loop_starts``, and what it points to.
@@ -128,14 +157,9 @@ class ControllerLibrary:
         ffi, _ = library()
         groups: dict[str, list[tuple[int, float]]] = {"real": [], "integer": [], "boolean": []}
         for name, value in parameters.items():
-            if name not in self._members:
-                raise FmuError(unknown_parameter(name))
-            members = self._members[name]
-            values = list(value) if isinstance(value, Sequence) else [value] * len(members)
-            if len(values) != len(members):
-                raise FmuError(f"{name} takes {len(members)} values, not {len(values)}")
-            kind = _KINDS.get(members[0].variable.type, "integer")
-            groups[kind] += [(m.value_reference, v) for m, v in zip(members, values, strict=True)]
+            scalars_set = entries_of(name, value, self._members)
+            kind = _KINDS.get(scalars_set[0][0].variable.type, "integer")
+            groups[kind] += [(member.value_reference, v) for member, v in scalars_set]
         kept: list[Any] = []
         fields: dict[str, Any] = {}
         for kind, entries in groups.items():

@@ -9,7 +9,6 @@ import shlex
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property, lru_cache
-from numbers import Integral
 from pathlib import Path
 from typing import Any, Final
 
@@ -19,6 +18,7 @@ from apnc.loop.plain import made, plain
 from apnc.loop.steps import Over, check_steps, mapped, steps_of, steps_text
 from apnc_core.enumerations import Method
 from apnc_core.frozen import Frozen
+from apnc_core.in_python import in_python
 from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import Causality, Value
 from apnc_core.settings import checked
@@ -28,6 +28,7 @@ from apnc_plant.conditions import CONDITIONS, Conditions, named_conditions
 from apnc_plant.ground import Plane, Surface, from_dict
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
+from apnc_plant.robot.model import OF_THE_RUN
 
 Setting = Value | Sequence[float]
 
@@ -45,6 +46,9 @@ _OVER_TIME: Final[Mapping[str, Callable[[Any], Any]]] = {
 SET_ELSEWHERE: Final = {"Ts": "rate", "method": "method"}
 """Parameters that are no settings, and the field that each comes from."""
 
+_NUMBERS: Final = ("duration", "rate", "step")
+"""Fields that hold a number."""
+
 
 @dataclass(frozen=True)
 class Experiment:
@@ -55,7 +59,7 @@ class Experiment:
         mi: modulatory input [1], one value or steps over time ``((start [s], value), ...)``.
         duration: simulated time [s], rounded to whole ticks.
         seed: of the robot's asymmetry and the sensor noise.
-        method: name of the controller, see ``Method``.
+        method: name of the controller, see ``Method``; ``apnc`` or the FMU's own if omitted.
         preset: ``robot`` (the defaults and what the robot's file sets), ``lilibot`` (the defaults)
             or ``paper`` (as printed).
         settings: parameters that differ from the preset, by name.
@@ -63,10 +67,14 @@ class Experiment:
         conditions: payload, damage and the like: a name of the paper, ``Conditions``, or steps.
         turn: steering [1], positive turns left; one value or steps.
         reset: holds the controller in its start state; one value or steps.
-        rate: update rate of the controller [Hz].
+        rate: update rate of the controller [Hz]; 60 or the FMU's own if omitted.
         step: longest integration step of the plant [s].
         engine: what integrates the equations of motion, ``exudyn``, ``mujoco`` or ``compiled``.
-        fmu: file of the controller; the built one if omitted.
+        fmu: file of the controller; the built one if omitted. Its own start values, those that are
+            not the defaults, hold unless ``rate``, ``method``, ``settings`` or a preset other than
+            ``robot`` say otherwise; they go before what the robot's file sets.
+
+    Numbers and arrays of numpy and paths become what Python has for them.
 
     Raises:
         ValueError: a value outside what is allowed, or names that the robot does not have.
@@ -76,20 +84,24 @@ class Experiment:
     mi: Over[float] = 0.08
     duration: float = 45.0
     seed: int = 0
-    method: str = "apnc"
+    method: str = None  # type: ignore[assignment]  # a text once it is made
     preset: str = OWN_PRESET
     settings: Mapping[str, Setting] = field(default_factory=dict)
     ground: Surface = field(default_factory=Plane)
     conditions: Over[str | Conditions] = "C1"
     turn: Over[float] = 0.0
     reset: Over[bool] = False
-    rate: float = 60.0
+    rate: float = None  # type: ignore[assignment]  # a number once it is made
     step: float = PlantOptions().step
     engine: str = OWN_ENGINE
     fmu: str | None = None
 
     def __post_init__(self) -> None:
         """Check everything before anything runs."""
+        self._put({f.name: in_python(getattr(self, f.name)) for f in fields(self)})
+        self._check_kinds()
+        omitted = {n: value for n, value in self._of_fmu().items() if getattr(self, n) is None}
+        self._put(omitted)
         check_steps("mi", self.mi, lambda name, value: _in_range("MI", value, name))
         check_steps("turn", self.turn, lambda name, value: _in_range("turn", value, name))
         check_steps("reset", self.reset, _boolean)
@@ -101,25 +113,43 @@ class Experiment:
             raise ValueError(
                 f"method '{self.method}' is not one of {', '.join(Method.__members__)}"
             )
-        if not isinstance(self.seed, Integral) or not 0 <= self.seed <= LARGEST_SEED:
-            raise ValueError(f"seed = {self.seed} is not a whole number from 0 to 2^64 - 1")
-        if not isinstance(self.ground, Surface):
-            raise ValueError(f"ground = {self.ground!r} is not a ground")
         self._check_times()
         check_engine(self.engine)
         PlantOptions(step=self.step)
         self.parameters()
         # equal experiments are equal however their numbers came, and nothing in them can change
         own = {name: checked(name, value) for name, value in self.settings.items()}
-        numbers = {name: float(getattr(self, name)) for name in ("duration", "rate", "step")}
-        over = {
-            name: mapped(getattr(self, name), own_type) for name, own_type in _OVER_TIME.items()
-        }
-        whole = {"seed": int(self.seed), "settings": Frozen(own)}
-        for name, value in {**numbers, **over, **whole}.items():
+        self._put({name: float(getattr(self, name)) for name in _NUMBERS})
+        self._put({name: mapped(getattr(self, name), kind) for name, kind in _OVER_TIME.items()})
+        self._put({"settings": Frozen(own)})
+
+    def _put(self, values: Mapping[str, Any]) -> None:
+        for name, value in values.items():
             object.__setattr__(self, name, value)
 
+    def _check_kinds(self) -> None:
+        """Refuse what is of another kind than its field."""
+        if not isinstance(self.robot, str | RobotDescription):
+            raise ValueError(f"robot = {self.robot!r} is not a name, a file or a description")
+        if not isinstance(self.fmu, str | None):
+            raise ValueError(f"fmu = {self.fmu!r} is not a file")
+        if not isinstance(self.settings, Mapping):
+            raise ValueError(f"settings = {self.settings!r} are not values by name")
+        if not isinstance(self.ground, Surface):
+            raise ValueError(f"ground = {self.ground!r} is not a ground")
+        whole = isinstance(self.seed, int) and not isinstance(self.seed, bool)
+        if not whole or not 0 <= self.seed <= LARGEST_SEED:
+            raise ValueError(f"seed = {self.seed} is not a whole number from 0 to 2^64 - 1")
+
+    def _of_fmu(self) -> dict[str, Any]:
+        """Fields that the FMU says itself, or else the defaults."""
+        own: dict[str, Any] = {name: row(name).start for name in SET_ELSEWHERE}
+        own |= self.fmu_starts
+        return {"rate": 1.0 / own["Ts"], "method": Method(own["method"]).name}
+
     def _check_times(self) -> None:
+        for name in _NUMBERS:
+            _number(name, getattr(self, name))
         limits = row("Ts")
         assert limits.min is not None and limits.max is not None
         if not (self.rate > 0.0 and limits.min <= 1.0 / self.rate <= limits.max):
@@ -152,24 +182,46 @@ class Experiment:
             return self.robot
         return _shipped(self.robot) if Path(self.robot).suffix == "" else load_robot(self.robot)
 
+    @cached_property
+    def fmu_starts(self) -> Mapping[str, Setting]:
+        """Own start values of ``fmu``: parameters by name that are not at their default in it.
+
+        Raises:
+            ValueError: no FMU of the controller, or one for another number of legs.
+        """
+        if self.fmu is None:
+            return {}
+        from apnc.loop.fmu_controller import own_starts  # noqa: PLC0415  # takes long to import
+
+        n_legs, values = own_starts(self.fmu)
+        robot = self.description
+        if n_legs != len(robot.legs):
+            raise ValueError(
+                f"{self.fmu} is for {n_legs} legs; robot '{robot.name}' has {len(robot.legs)}"
+            )
+        return values
+
     def parameters(self) -> dict[str, Setting]:
-        """Every parameter of the controller by name, as it is set."""
+        """Every parameter of the controller by name, as it is set.
+
+        What comes first holds: settings, a preset that is named, own start values of the FMU, what
+        the robot's file sets, and the weight of the robot, the defaults. ``Ts`` and ``method`` are
+        set by the fields, and a preset sets nothing that belongs to the run.
+        """
         known = [v.name for v in rows(Causality.parameter)]
-        own: Mapping[str, Setting] = {}
+        own, of_fmu = {}, dict(self.fmu_starts)
         if self.preset == OWN_PRESET:
-            chosen, own = preset("lilibot"), self.description.controller
+            chosen, own = preset("lilibot"), dict(self.description.controller)
         elif self.preset in PRESETS:
             chosen = preset(self.preset)
+            of_fmu = {name: value for name, value in of_fmu.items() if name in OF_THE_RUN}
         else:
             allowed = ", ".join((OWN_PRESET, *PRESETS))
             raise ValueError(f"preset '{self.preset}' is not one of {allowed}")
         values: dict[str, Setting] = {name: getattr(chosen, name) for name in known}
-        values |= {
-            "Ts": self.Ts,
-            "robot_weight": self.description.weight,
-            "method": Method[self.method],
-        }
-        for name, value in {**own, **self.settings}.items():
+        values |= {"robot_weight": self.description.weight, **own, **of_fmu}
+        values |= {"Ts": self.Ts, "method": Method[self.method]}
+        for name, value in self.settings.items():
             if name in SET_ELSEWHERE:
                 raise ValueError(f"{name} = {value} is not set here, but by {SET_ELSEWHERE[name]}")
             values[name] = checked(name, value)
@@ -181,14 +233,20 @@ class Experiment:
             )
         return values
 
+    def starts(self) -> dict[str, Setting]:
+        """What the controller is set to: relations that are 0 only if it starts with others."""
+        values = self.parameters()
+        if not values["phi_stored"]:
+            values["phi_stored"] = (0.0,) * (len(self.description.legs) - 1)
+            if "phi_stored" not in self.fmu_starts:
+                del values["phi_stored"]
+        return values
+
     def changed(self) -> dict[str, Any]:
-        """Fields that are not the default, by name."""
-        default = _default()
-        return {
-            f.name: getattr(self, f.name)
-            for f in fields(self)
-            if getattr(self, f.name) != getattr(default, f.name)
-        }
+        """Fields that are not the default, by name; of an FMU its own values are the default."""
+        default = {f.name: getattr(_default(), f.name) for f in fields(self)} | self._of_fmu()
+        own = {name: getattr(self, name) for name in default}
+        return {name: value for name, value in own.items() if value != default[name]}
 
     def to_dict(self) -> dict[str, Any]:
         """Every field as plain data for JSON, the robot by its name unless it is an object."""
@@ -290,11 +348,16 @@ def _shipped(name: str) -> RobotDescription:
     return load_robot(name)
 
 
+def _number(name: str, value: Any) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ValueError(f"{name} = {value!r} is not a number")
+
+
 def _in_range(variable: str, value: Any, name: str) -> None:
     limits = row(variable)
     assert limits.min is not None and limits.max is not None
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    if not number or not limits.min <= value <= limits.max:
+    _number(name, value)
+    if not limits.min <= value <= limits.max:
         raise ValueError(f"{name} = {value} is not in {limits.min:g} ... {limits.max:g}")
 
 

@@ -9,7 +9,7 @@ import time
 import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import fmpy
 import numpy as np
@@ -17,13 +17,18 @@ from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
 from numpy.typing import NDArray
 
-from apnc_core.schema import Causality, Shape, Type, Value
+from apnc_core import settings
+from apnc_core.in_python import in_python
+from apnc_core.schema import Causality, Shape, Type, Value, Variable
 from apnc_core.variables import TABLE, Scalar, row, scalars
 from apnc_plant.trace import Trace
 from build_fmu.platforms import BuildError, library_of, why_not_loaded
 
 Array = NDArray[np.float64]
 Setting = Value | Sequence[float]
+
+
+_BOOLEANS: Final = {"false": "0", "true": "1"}
 
 
 class FmuError(ValueError):
@@ -74,10 +79,82 @@ def members_by_name(n_legs: int, naming: str) -> dict[str, list[Scalar]]:
     return members
 
 
-def unknown_parameter(name: str) -> str:
-    """What to say of a parameter that the controller does not have."""
-    known = ", ".join(v.name for v in TABLE if v.causality is Causality.parameter)
-    return f"parameter '{name}' is not one of {known}"
+def entries_of(
+    name: str, value: Setting, members: Mapping[str, list[Scalar]]
+) -> list[tuple[Scalar, Value]]:
+    """The scalars of a parameter, each with its value.
+
+    Args:
+        name: row name of the table.
+        value: of all of them, or one for each.
+        members: the scalars of every row.
+
+    Raises:
+        FmuError: an unknown parameter, or a wrong number of values.
+    """
+    if name not in members:
+        known = ", ".join(v.name for v in TABLE if v.causality is Causality.parameter)
+        raise FmuError(f"parameter '{name}' is not one of {known}")
+    own, given = members[name], in_python(value)
+    values = list(given) if isinstance(given, Sequence) else [given] * len(own)
+    if len(values) != len(own):
+        raise FmuError(f"{name} takes {len(own)} values, not {len(values)}")
+    return list(zip(own, values, strict=True))
+
+
+def parameter_of(variable: Variable, entries: Sequence[float]) -> settings.Setting:
+    """A parameter as an experiment has it, of what its scalars hold in an FMU.
+
+    Raises:
+        ValueError: a number that it cannot have.
+    """
+    if variable.shape is not Shape.scalar:
+        return settings.checked(variable.name, entries if any(entries) else ())
+    if variable.type is Type.boolean:
+        return bool(entries[0])
+    value = entries[0] if variable.type is Type.real else int(entries[0])
+    return settings.checked(variable.name, value)
+
+
+def own_starts(path: Path | str) -> tuple[int, dict[str, settings.Setting]]:
+    """Number of legs of a controller FMU, and its own start values.
+
+    Returns:
+        Those parameters, by row name, that do not start at the default of the table in it.
+
+    Raises:
+        FmuError: no FMU, not this controller, or a start value that a parameter cannot have.
+    """
+    description = check_fmu(path)
+    n_legs, naming = names_in(description)
+    texts = {v.name: v.start for v in description.modelVariables}
+    found: dict[str, settings.Setting] = {}
+    for members in members_by_name(n_legs, naming).values():
+        variable = members[0].variable
+        starts = [texts[member.name] for member in members]
+        if variable.causality is not Causality.parameter or None in starts:
+            continue
+        try:
+            numbers = [float(_BOOLEANS.get(start, start)) for start in starts]
+            if set(numbers) != {variable.start}:
+                found[variable.name] = parameter_of(variable, numbers)
+        except ValueError as error:
+            raise FmuError(f"{path}: {error}") from None
+    return n_legs, found
+
+
+def unpack(path: Path | str, folder: Path) -> None:
+    """Unpack an FMU.
+
+    Raises:
+        FmuError: the file is damaged.
+    """
+    try:
+        fmpy.extract(str(path), unzipdir=str(folder))
+    except OSError:
+        raise
+    except Exception as error:  # of any kind, after what is damaged
+        raise FmuError(f"{path}: damaged: {error}") from error
 
 
 class FmuController(contextlib.ExitStack):
@@ -114,8 +191,8 @@ class FmuController(contextlib.ExitStack):
         self._prepare()
 
     def _instantiate(self, path: Path | str, description: Any, unzipped: str) -> None:
-        fmpy.extract(str(path), unzipdir=unzipped)
         folder = Path(unzipped)
+        unpack(path, folder)
         try:
             library = library_of(folder)
         except BuildError as error:
@@ -158,18 +235,25 @@ class FmuController(contextlib.ExitStack):
             raise FmuError(self._why(error)) from error
 
     def _write(self, name: str, value: Setting) -> None:
-        members = members_by_name(self.n_legs, self.naming).get(name)
-        if not members:
-            raise FmuError(unknown_parameter(name))
-        values = list(value) if isinstance(value, Sequence) else [value] * len(members)
-        if len(values) != len(members):
-            raise FmuError(f"{name} takes {len(members)} values, not {len(values)}")
-        references = [m.value_reference for m in members]
+        entries = entries_of(name, value, members_by_name(self.n_legs, self.naming))
         put, convert = {
             Type.real: (self._fmu.setReal, float),
             Type.boolean: (self._fmu.setBoolean, bool),
-        }.get(members[0].variable.type, (self._fmu.setInteger, int))
-        put(references, [convert(v) for v in values])
+        }.get(entries[0][0].variable.type, (self._fmu.setInteger, int))
+        put([m.value_reference for m, _ in entries], [convert(v) for _, v in entries])
+
+    def parameters(self) -> dict[str, settings.Setting]:
+        """The parameters as the FMU has them now, by row name."""
+        found: dict[str, settings.Setting] = {}
+        for members in members_by_name(self.n_legs, self.naming).values():
+            variable = members[0].variable
+            if variable.causality is not Causality.parameter:
+                continue
+            get = {Type.real: self._fmu.getReal, Type.boolean: self._fmu.getBoolean}.get(
+                variable.type, self._fmu.getInteger
+            )
+            found[variable.name] = parameter_of(variable, get([m.value_reference for m in members]))
+        return found
 
     def _prepare(self) -> None:
         def block(call: str, kind: Type, *shown: Causality) -> Block:

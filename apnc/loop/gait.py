@@ -11,6 +11,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from apnc_core.in_python import in_python
 from apnc_core.variables import row
 
 FORMAT: Final = "apnc-gait"
@@ -39,14 +40,24 @@ class Gait:
 
     def __post_init__(self) -> None:
         """Check that there is a usable relation per leg."""
+        for name in ("legs", "phi"):
+            entries = in_python(getattr(self, name))
+            if not isinstance(entries, list | tuple):
+                raise GaitError(f"{name} = {entries!r} is not one entry per leg")
+            object.__setattr__(self, name, tuple(entries))
+        for leg in self.legs:
+            if not isinstance(leg, str):
+                raise GaitError(f"leg {leg!r} is not a name")
         limits = row("phi_stored")
         assert limits.min is not None and limits.max is not None
         if len(self.phi) != len(self.legs) - 1:
             raise GaitError(f"{len(self.phi)} relations do not fit {len(self.legs)} legs")
         for leg, angle in zip(self.legs[1:], self.phi, strict=True):
-            if not (math.isfinite(angle) and limits.min <= angle <= limits.max):
+            number = isinstance(angle, int | float) and not isinstance(angle, bool)
+            if not (number and math.isfinite(angle) and limits.min <= angle <= limits.max):
                 allowed = f"{limits.min:g} ... {limits.max:g} rad"
                 raise GaitError(f"relation of leg {leg} is {angle}; {allowed} is allowed")
+        object.__setattr__(self, "phi", tuple(map(float, self.phi)))
 
     def settings(self, legs: tuple[str, ...]) -> dict[str, Any]:
         """Parameters of the FMU that start it with this gait on a robot with these legs.
@@ -124,8 +135,8 @@ def read_gait(path: Path | str) -> Gait:
     if claimed != _checksum(content):
         raise GaitError(f"{path} is damaged: its checksum does not fit")
     try:
-        return Gait(tuple(content["legs"]), tuple(float(x) for x in content["phi"]))
-    except (KeyError, TypeError) as error:
-        raise GaitError(f"{path} is damaged: {error}") from None
+        return Gait(content["legs"], content["phi"])
+    except KeyError as error:
+        raise GaitError(f"{path} is damaged: it has no {error}") from None
     except GaitError as error:
         raise GaitError(f"{path}: {error}") from None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+from collections.abc import Mapping
 from importlib.metadata import version
 from typing import Any, Final
 
@@ -11,18 +12,26 @@ from apnc.loop.code import code_hash
 from apnc.loop.engines import EXTRAS
 from apnc.loop.experiment import Experiment
 from apnc.loop.plain import plain
+from apnc_core.settings import Setting
 
 _LIBRARIES: Final = ("cffi", "exudyn", "fmpy", "numpy")
 
 
-def what_was_run(experiment: Experiment) -> dict[str, Any]:
-    """The command that repeats it, the whole experiment, all parameters, and versions."""
+def what_was_run(
+    experiment: Experiment, parameters: Mapping[str, Setting] | None = None
+) -> dict[str, Any]:
+    """The command that repeats it, the whole experiment, all parameters, and versions.
+
+    Args:
+        experiment: what was run.
+        parameters: as read back from the controller; those of the experiment if there are none.
+    """
     engine = {experiment.engine} & set(EXTRAS)
     return {
         "command": experiment.command(),
         "key": experiment.key(),
         "experiment": experiment.to_dict(),
-        "parameters": plain(experiment.parameters()),
+        "parameters": plain(parameters or experiment.parameters()),
         "versions": {
             "apnc": apnc_core.__version__,
             "python": platform.python_version(),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Final
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from apnc.loop.experiment import Experiment
 from apnc_core.schema import Shape, Variable
+from apnc_core.settings import Setting
 from apnc_core.variables import TABLE
 from apnc_plant.channels import PLANT_CHANNELS
 from apnc_plant.robot import RobotDescription
@@ -43,6 +44,8 @@ class Record:
         mass: total mass of the robot with its payload [kg].
         experiment: what was run.
         robot: what walked.
+        parameters: of the controller at the start, by name, as read back from the FMU; those of
+            the experiment if empty.
         end: how the run ended.
         message: what broke down, if anything did.
         fmu_wall_s: wall time spent inside the controller [s].
@@ -56,6 +59,7 @@ class Record:
     mass: float
     experiment: Experiment
     robot: RobotDescription
+    parameters: Mapping[str, Setting] = field(default_factory=dict)
     end: End = End.complete
     message: str = ""
     fmu_wall_s: float = 0.0

@@ -65,8 +65,7 @@ def simulate(
         return _run_in_c(experiment, progress, stop)
     robot = experiment.description
     path = Path(experiment.fmu) if experiment.fmu else host_fmu(len(robot.legs))
-    parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
-    with FmuController(path, parameters) as controller:
+    with FmuController(path, experiment.starts()) as controller:
         if controller.n_legs != len(robot.legs):
             raise ValueError(
                 f"{path} is for {controller.n_legs} legs; robot '{robot.name}' has "
@@ -100,7 +99,7 @@ def _run(
     begin, Ts = time.perf_counter(), experiment.Ts
     mi, turn = Course(experiment.mi), Course(experiment.turn)
     reset, conditions = Course(experiment.reset), Course(experiment.conditions)
-    body, brain = plant.trace(), controller.trace()
+    body, brain, parameters = plant.trace(), controller.trace(), controller.parameters()
     end, message, present = End.complete, "", conditions.at(0.0)
     for n in range(experiment.ticks):
         if stop():
@@ -130,6 +129,7 @@ def _run(
         mass=plant.mass,
         experiment=experiment,
         robot=experiment.description,
+        parameters=parameters,
         end=end,
         message=message,
         fmu_wall_s=controller.wall_s,

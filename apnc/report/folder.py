@@ -102,7 +102,7 @@ def write_run(record: Record, folder: Path | str) -> Summary:
     """
     summary = summarise(record)
     units = {"columns": {column.name: column.unit for column in column_names(record)}}
-    content = summary.to_dict() | what_was_run(record.experiment) | units
+    content = summary.to_dict() | what_was_run(record.experiment, record.parameters) | units
     text = json.dumps(content, indent=2, allow_nan=False) + "\n"
     files: dict[str, Write] = {
         "summary.json": lambda path: path.write_text(text, encoding="utf-8"),

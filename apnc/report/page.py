@@ -39,7 +39,7 @@ def render(record: Record, summary: Summary) -> str:
         verdicts=verdicts(summary, record.experiment.duration),
         rows=rows(summary),
         colours=leg_colours(record.legs),
-        known=what_was_run(record.experiment),
+        known=what_was_run(record.experiment, record.parameters),
         notes=_notes(record, run),
     )
 

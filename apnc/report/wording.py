@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, Final
 
@@ -45,16 +46,26 @@ def heading(experiment: Experiment) -> str:
 def facts(record: Record) -> list[tuple[str, str]]:
     """What was run: name and value."""
     e = record.experiment
-    stored = e.settings.get("phi_stored") if e.settings.get("stored") else None
+    p = record.parameters or e.parameters()
+    stored = p["phi_stored"] if p["stored"] else None
     return [
         ("Robot", f"{record.robot.name}, {record.mass:.2f} kg, legs {', '.join(record.legs)}"),
         ("Controller", f"{e.method}, preset {e.preset}, {e.rate:g} Hz"),
+        *_own_fmu(e, p),
         ("Changed parameters", ", ".join(_settings(e.settings)) or "none"),
         ("Memory", f"starts with φ {_plain(stored)} rad" if stored else "empty at the start"),
         *((name.capitalize(), _plain(getattr(e, name))) for name in ("turn", "conditions")),
         *(("MI", _plain(e.mi)), ("Ground", _plain(e.ground)), ("Seed", str(e.seed))),
         ("Engine", f"{e.engine}, step {1e6 * e.step:.4g} µs"),
     ]
+
+
+def _own_fmu(e: Experiment, parameters: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The FMU of one's own, and which of its own start values held."""
+    if e.fmu is None:
+        return []
+    held = {name: value for name, value in e.fmu_starts.items() if parameters[name] == value}
+    return [("FMU", e.fmu), ("Start values of the FMU", ", ".join(_settings(held)) or "as usual")]
 
 
 def verdicts(summary: Summary, planned: float) -> list[Verdict]:

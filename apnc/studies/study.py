@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Final
@@ -20,6 +20,7 @@ from apnc.studies.claims import Claim
 from apnc.studies.contenders import ALL, contender
 from apnc.studies.registry import METHODS, ROBOT, Entry
 from apnc.studies.rows import Row
+from apnc_core.in_python import in_python
 from apnc_plant.robot import RobotDescription
 
 Value = str | float | int
@@ -123,6 +124,11 @@ class Study:
         robot: str | None = None,
     ) -> list[Trial]:
         """Every value of every axis, its seeds, every method; see ``run_study``."""
+        trials, duration, robot = in_python(trials), in_python(duration), in_python(robot)
+        methods = in_python(methods)
+        chosen = {axis: in_python(values) for axis, values in (chosen or {}).items()}
+        if not isinstance(trials, int):
+            raise ValueError(f"trials = {trials!r} is not a whole number")
         if trials < 1:
             raise ValueError(f"trials = {trials} is not at least 1")
         if methods is not None and METHODS not in self.entry.options:
@@ -131,10 +137,10 @@ class Study:
             raise ValueError(f"study '{self.name}' takes no robot; it has its own")
         if not (used := tuple(dict.fromkeys(self.methods if methods is None else methods))):
             raise ValueError("no method is given")
-        if unknown := set(chosen or {}) - set(self.axes):
+        if unknown := set(chosen) - set(self.axes):
             allowed = ", ".join(self.axes) or "none"
             raise ValueError(f"{unknown.pop()} is no axis of '{self.name}'; allowed: {allowed}")
-        values = (self._values(axis, (chosen or {}).get(axis)) for axis in self.axes)
+        values = (self._values(axis, chosen.get(axis)) for axis in self.axes)
         cells = [dict(zip(self.axes, at, strict=True)) for at in itertools.product(*values)]
         return [
             self._trial({"method": method, **cell, "seed": seed}, duration, robot)
@@ -148,11 +154,13 @@ class Study:
         known = self.axes[axis]
         if chosen is None:
             return list(known)
-        if not chosen:
+        if isinstance(chosen, str) or not isinstance(chosen, Iterable):
+            raise ValueError(f"{axis} = {chosen!r} is not a list of values")
+        if not (chosen := list(chosen)):
             raise ValueError(f"no {axis} is given")
         try:
             values = [type(known[0])(value) for value in chosen]
-        except ValueError:
+        except (TypeError, ValueError):
             raise ValueError(f"{axis} = {', '.join(map(str, chosen))}: not a number") from None
         for value in values:  # numbers with a unit are free, names and counts are not
             if not isinstance(value, float) and value not in known:

@@ -7,10 +7,12 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
-from typing import Any, ClassVar, Final, get_type_hints
+from functools import cache
+from typing import Any, ClassVar, Final, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from apnc_core.in_python import in_python
 from apnc_plant.ground.in_c import GroundInC, Numbers
 from apnc_plant.robot.model import Array
 
@@ -44,7 +46,9 @@ class Surface(ABC):
     slope: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check the values."""
+        """Check the values: of the type that their field says, and in range."""
+        for name, kind in _types(type(self)).items():
+            object.__setattr__(self, name, _typed(name, kind, in_python(getattr(self, name))))
         self._require("slope", abs(self.slope) < math.pi / 2, "less than a right angle [rad]")
 
     def _require(self, name: str, fits: bool, allowed: str) -> None:
@@ -188,13 +192,13 @@ def from_dict(data: Mapping[str, Any]) -> Surface:
     if kind not in GROUNDS:
         raise ValueError(f"ground {kind!r} is not one of {', '.join(GROUNDS)}")
     cls = GROUNDS[kind]
-    types = {f.name: get_type_hints(cls)[f.name] for f in fields(cls)}
+    known = [f.name for f in fields(cls)]
     values = {name: value for name, value in data.items() if name != "kind"}
     for name in values:
-        if name not in types:
-            raise ValueError(f"ground '{kind}' has no {name!r}; it has {', '.join(types)}")
+        if name not in known:
+            raise ValueError(f"ground '{kind}' has no {name!r}; it has {', '.join(known)}")
     try:
-        return cls(**{name: _typed(name, types[name], v) for name, v in values.items()})
+        return cls(**values)
     except ValueError as error:
         raise ValueError(f"ground '{kind}': {error}") from None
 
@@ -224,6 +228,22 @@ def _number(text: str) -> object:
         return text
 
 
+@cache
+def _types(cls: type[Surface]) -> dict[str, Any]:
+    """Types of the fields that hold a number or some; others are a ground's own business."""
+    try:
+        hints = get_type_hints(cls)
+    except NameError:  # of a class inside a function
+        return {}
+    numbers = (int, float)
+    types = {f.name: hints[f.name] for f in fields(cls)}
+    return {
+        name: kind
+        for name, kind in types.items()
+        if kind in numbers or (get_origin(kind) is tuple and set(get_args(kind)) <= set(numbers))
+    }
+
+
 def _typed(name: str, kind: Any, value: Any) -> Any:
     plain = isinstance(value, int | float) and not isinstance(value, bool)
     if kind is int:
@@ -234,7 +254,7 @@ def _typed(name: str, kind: Any, value: Any) -> Any:
         if plain and math.isfinite(value):
             return float(value)
         raise ValueError(f"{name} is {value!r}; allowed: a finite number")
-    kinds = kind.__args__
+    kinds = get_args(kind)
     if isinstance(value, list | tuple) and len(value) == len(kinds):
         return tuple(_typed(name, k, v) for k, v in zip(kinds, value, strict=True))
     raise ValueError(f"{name} is {value!r}; allowed: {len(kinds)} numbers")

@@ -33,7 +33,7 @@ _PARTS: Final[Mapping[str, type[Checked]]] = {
 _KEYS: Final = ("name", *_PARTS, "leg", "legs", "controller")
 
 
-def load_robot(name_or_path: str) -> RobotDescription:
+def load_robot(name_or_path: str | Path) -> RobotDescription:
     """Read a robot description.
 
     Args:
@@ -43,7 +43,7 @@ def load_robot(name_or_path: str) -> RobotDescription:
     Raises:
         RobotDescriptionError: the file is missing, is no TOML, or holds a value out of range.
     """
-    path = _find(name_or_path)
+    path = _find(str(name_or_path))
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:

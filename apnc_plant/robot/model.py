@@ -209,8 +209,8 @@ class Sensor(Checked):
     component: Annotated[str, Rule(words=("normal", "norm"))] = "normal"
 
 
-_OF_THE_RUN: Final = ("Ts", "robot_weight", "method", "stored", "phi_stored")
-"""Parameters of the controller that a run sets, not its robot."""
+OF_THE_RUN: Final = ("Ts", "robot_weight", "method", "stored", "phi_stored")
+"""Parameters of the controller that a run sets, no robot and no preset."""
 
 
 @dataclass(frozen=True)
@@ -267,7 +267,7 @@ class RobotDescription(Checked):
 def _preset(values: Mapping[str, object]) -> dict[str, float | int | bool]:
     preset: dict[str, float | int | bool] = {}
     for name, value in values.items():
-        if name in _OF_THE_RUN:
+        if name in OF_THE_RUN:
             raise NotAllowedError(f"controller.{name}", value, "parameters that a run does not set")
         try:
             preset[name] = cast(float | int | bool, checked(name, value))

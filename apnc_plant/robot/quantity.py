@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final, get_type_hints
 
+from apnc_core.in_python import in_python
+
 
 class RobotDescriptionError(ValueError):
     """A robot file is missing, or a value in it or in a robot is not allowed."""
@@ -105,7 +107,10 @@ class Checked:
             NotAllowedError: a value that is not allowed.
         """
         for name, rule in rules(type(self)).items():
-            value = getattr(self, name)
+            value = in_python(getattr(self, name))
+            if isinstance(value, list):
+                value = tuple(value)
+            object.__setattr__(self, name, value)
             if rule.unit == "deg" and isinstance(value, float):
                 value = math.degrees(value)
             if not rule.fits(value):

@@ -118,6 +118,30 @@ static void refuse(loop *l, int32_t lane, const char *call) {
     end_run(l, lane, LOOP_REFUSED);
 }
 
+/* Read back what the controller starts with; the call that failed. */
+static const char *read_parameters(const loop *l, const loop_lane *at) {
+    const loop_functions *f = l->functions;
+    const loop_variables *v = l->variables;
+    double *to = at->run->parameters;
+    int32_t whole[LOOP_MOST_LEGS];
+    if (!to) return NULL;
+    if (FUNCTION(fmu_get_real, f->get_real)(at->controller, v->real_parameters,
+                                            (size_t)v->n_real_parameters, to) > FMU_WARNING)
+        return "fmi2GetReal";
+    to += v->n_real_parameters;
+    if (FUNCTION(fmu_get_integer, f->get_integer)(at->controller, v->integer_parameters,
+                                                  (size_t)v->n_integer_parameters,
+                                                  whole) > FMU_WARNING)
+        return "fmi2GetInteger";
+    for (int32_t i = 0; i < v->n_integer_parameters; i++) *to++ = whole[i];
+    if (FUNCTION(fmu_get_integer, f->get_boolean)(at->controller, v->boolean_parameters,
+                                                  (size_t)v->n_boolean_parameters,
+                                                  whole) > FMU_WARNING)
+        return "fmi2GetBoolean";
+    for (int32_t i = 0; i < v->n_boolean_parameters; i++) *to++ = whole[i] != 0;
+    return NULL;
+}
+
 /* Call of the controller that failed; NULL if none did. */
 static const char *start_controller(loop *l, int32_t lane) {
     loop_lane *at = &l->lane[lane];
@@ -143,7 +167,7 @@ static const char *start_controller(loop *l, int32_t lane) {
         return "fmi2SetBoolean";
     if (FUNCTION(fmu_call, f->exit_initialization)(at->controller) > FMU_WARNING)
         return "fmi2ExitInitializationMode";
-    return NULL;
+    return read_parameters(l, at);
 }
 
 void loop_begin(void *memory, int32_t lane, loop_run *run) {

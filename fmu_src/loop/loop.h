@@ -37,6 +37,12 @@ typedef struct {
     int32_t n_booleans;       /* */
     const int32_t *sizes; /* entries of each variable of the record: of the inputs, the reset, */
     int32_t n_sizes;      /* reals, integers and booleans, one after the other */
+    const uint32_t *real_parameters;    /* to be read back at the start */
+    int32_t n_real_parameters;          /* */
+    const uint32_t *integer_parameters; /* to be read back at the start */
+    int32_t n_integer_parameters;       /* */
+    const uint32_t *boolean_parameters; /* to be read back at the start */
+    int32_t n_boolean_parameters;       /* */
 } loop_variables;
 
 /* Start values of the controller. */
@@ -82,6 +88,8 @@ typedef struct {
                                   times its size; NULL: none */
     double *controller_record; /* the variables one after the other, each of `ticks` times its
                                   size; NULL: none */
+    double *parameters;        /* as the controller has them at the start: reals, then integers,
+                                  then booleans, one after the other; NULL: none */
     /* written here */
     int32_t count;       /* ticks taken */
     int32_t end;         /* LOOP_... */

@@ -6,7 +6,7 @@
 #include "sensor.h"
 
 #define TICK_WILD 1e8  /* [m^2/s^2, rad^2/s^2] sum of squared speeds of a motion that broke down */
-#define TICK_NOW  1e-9 /* part of a tick within which two moments are one */
+#define TICK_NOW  1e-6 /* part of a tick within which two moments are one */
 
 /* Velocity Verlet: half a kick, a drift, accelerations, half a kick. */
 INL void kick(const plant_parts *p, double h) {
@@ -31,7 +31,7 @@ INL void drift(const plant_parts *p, double h) {
 
 INL void integrate(const plant_parts *p, const plant_ground *const *grounds, double duration,
                    double step, double *last) {
-    const double wanted = ceil(duration / step - 1e-9);
+    const double wanted = ceil(duration / step - TICK_NOW);
     const int64_t steps = wanted > 1.0 ? (int64_t)wanted : 1;
     const double h = duration / (double)steps;
     for (int64_t i = 0; i < steps; i++) {

@@ -113,7 +113,7 @@ def _on_ground(lib: Any, ground: Numbers, seed: int, held: bool, norm: int) -> i
     then = q + step * v
     acting = expected(lib, body, ground, then, v, target, **there)
     a = body.accelerations(then, v, acting.force)
-    close(plant.accelerations(), a, 1e-10)
+    close(plant.accelerations(), a, 1e-11)
     work = plant.sample()["work"].ravel() - before
     close(work, np.abs(acting.torque * v[BASE:]) * step)
     v = v + 0.5 * step * a
@@ -126,14 +126,14 @@ def shown(plant: CPlant, acting: Expected, q: np.ndarray, v: np.ndarray, norm: i
     sample = plant.sample()
     close(sample["position"], q[:3])
     close(sample["rpy"], q[[5, 4, 3]])
-    close(sample["velocity"], v[:3], 1e-11)
+    close(sample["velocity"], v[:3])
     close(sample["angle"], q[BASE:].reshape(-1, 3) * SIGN)
-    close(sample["speed"], v[BASE:].reshape(-1, 3) * SIGN, 1e-10)
-    close(sample["torque"], acting.torque.reshape(-1, 3) * SIGN, 1e-10)
+    close(sample["speed"], v[BASE:].reshape(-1, 3) * SIGN)
+    close(sample["torque"], acting.torque.reshape(-1, 3) * SIGN)
     close(sample["foot"], acting.foot)
-    close(sample["force"], acting.push, 1e-9)
+    close(sample["force"], acting.push, 1e-11)
     load = np.linalg.norm(acting.push, axis=1) if norm else acting.load
-    close(sample["grf"], load, 1e-9)
+    close(sample["grf"], load, 1e-11)
 
 
 def foot_mass_of(body: RigidBody, plant: CPlant, ground: Numbers) -> float:

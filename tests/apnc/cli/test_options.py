@@ -6,6 +6,8 @@ import json
 import math
 import re
 import shlex
+import tempfile
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +23,8 @@ from apnc.loop.provenance import what_was_run
 from apnc_core.enumerations import Method
 from apnc_core.schema import Causality, Shape, Type
 from apnc_core.variables import rows
+from build_fmu.build import cached_fmu
+from build_fmu.options import BuildOptions, host_platform
 
 COMMAND: Any = typer.main.get_command(app).commands["walk"]  # type: ignore[attr-defined]
 
@@ -57,6 +61,18 @@ GROUNDS = st.one_of(
     st.builds(Kerb, at=st.floats(-9, 9), height=st.floats(1e-4, 1.0)),
     st.builds(Waves),
 )
+
+
+@cache
+def own_fmu() -> str:
+    """An FMU whose own start values an experiment may set otherwise."""
+    path = Path(FOLDER.name) / "my own.fmu"
+    options = BuildOptions(platforms=(host_platform(),), settings={"Ts": 0.02, "xi": 0.07})
+    path.write_bytes(cached_fmu(options).read_bytes())
+    return str(path)
+
+
+FOLDER = tempfile.TemporaryDirectory()
 EXPERIMENTS = st.builds(
     Experiment,
     robot=st.just("lilibot"),
@@ -72,7 +88,7 @@ EXPERIMENTS = st.builds(
     reset=over(st.booleans()),
     rate=st.floats(10, 1000),
     step=st.floats(1e-5, 1e-2),
-    fmu=st.none() | st.just("my own/Apnc.fmu"),
+    fmu=st.none() | st.deferred(lambda: st.just(own_fmu())),
 )
 
 

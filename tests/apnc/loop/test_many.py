@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import weakref
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -73,9 +74,13 @@ def test_none_is_no_work_and_no_workers_are_refused() -> None:
         simulate_many([], workers=0)
 
 
-def test_a_controller_that_cannot_be_used_is_said() -> None:
-    with pytest.raises(ValueError, match=r"test_many\.py"):
-        simulate_many([WALK, replace(WALK, fmu=__file__)])
+def test_a_controller_that_cannot_be_used_is_said(fmu4: Path, tmp_path: Path) -> None:
+    path = tmp_path / "own.fmu"
+    path.write_bytes(fmu4.read_bytes())
+    own = replace(WALK, fmu=str(path))
+    path.write_bytes(b"no zip")
+    with pytest.raises(ValueError, match=r"own\.fmu: not an FMU"):
+        simulate_many([WALK, own])
 
 
 def test_an_error_of_one_run_ends_no_other() -> None:

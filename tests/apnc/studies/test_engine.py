@@ -18,6 +18,7 @@ from typing import Any
 
 import pytest
 
+from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.studies import contenders, engine, store
 from apnc.studies.contenders import CONTENDERS
@@ -84,21 +85,34 @@ def test_a_trial_is_a_pure_function_of_its_experiment() -> None:
     assert run_trial(other)["turned_deg"] != row["turned_deg"]
 
 
-def test_a_trial_that_raises_is_a_row_with_its_error() -> None:
+def exchanged(experiment: Experiment, path: Path, content: bytes) -> Experiment:
+    """The experiment with a controller whose file is another when it walks."""
+    path.write_bytes(host_fmu().read_bytes())
+    changed = replace(experiment, fmu=str(path))
+    path.write_bytes(content)
+    return changed
+
+
+def test_a_trial_that_raises_is_a_row_with_its_error(tmp_path: Path) -> None:
     (trial,) = grid_of("mi", methods=["apnc"], **SHORT)
-    row = run_trial(replace(trial, experiment=replace(trial.experiment, fmu=__file__)))
+    spoilt = exchanged(trial.experiment, tmp_path / "own.fmu", b"no zip")
+    row = run_trial(replace(trial, experiment=spoilt))
     assert row["error"].startswith("FmuError: ") and "\n" not in row["error"]
     assert row["end"] == "error" and row["mi"] == 0.08
 
 
 @pytest.mark.parametrize("own", ["exudyn", "compiled"])
-def test_trials_that_raise_spoil_no_other(own: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_trials_that_raise_spoil_no_other(
+    own: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """One with no controller, one with that of other legs, one whose figures cannot be measured."""
     trials = grid_of("mi", 4, methods=["apnc"], chosen={"mi": [0.08]}, duration=0.5)
-    sound, fails, *wrong = (replace(t.experiment, engine=own) for t in trials)
-    fmus = [__file__, str(host_fmu(6))]
-    wrong = [replace(one, fmu=fmu) for one, fmu in zip(wrong, fmus, strict=True)]
-    every = [replace(t, experiment=e) for t, e in zip(trials, [sound, fails, *wrong], strict=True)]
+    sound, fails, none, six = (replace(t.experiment, engine=own) for t in trials)
+    none = exchanged(none, tmp_path / "none.fmu", b"no zip")
+    six = exchanged(six, tmp_path / "six.fmu", host_fmu(6).read_bytes())
+    every = [
+        replace(t, experiment=e) for t, e in zip(trials, [sound, fails, none, six], strict=True)
+    ]
 
     def measured(study: str, record: Record) -> Row:
         if record.experiment.seed == fails.seed:
@@ -107,10 +121,10 @@ def test_trials_that_raise_spoil_no_other(own: str, monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(engine, "measured", measured)
     rows = {row["key"]: row["error"] for row in run_trials(every, workers=2)}
-    first, moo, none, six = (rows[trial.place[-1]] for trial in every)
-    assert (first, moo) == ("", "ZeroDivisionError: moo")
-    assert none.startswith("FmuError: ") and __file__ in none
-    assert six.startswith("ValueError: ") and "6 legs" in six
+    found = [rows[trial.place[-1]] for trial in every]
+    assert found[:2] == ["", "ZeroDivisionError: moo"]
+    assert found[2].startswith("FmuError: ") and "none.fmu" in found[2]
+    assert found[3].startswith("ValueError: ") and "6 legs" in found[3]
 
 
 def test_numbers_that_are_not_finite_are_nothing(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -198,7 +198,6 @@ def test_a_payload_comes_on_top_of_a_condition(
         (Experiment(ground=Waves()), "ground = waves"),
         (Experiment(ground=Plane(slope=1.55)), "slope = 1.55; allowed: a number from -1.5 to 1.5"),
         (Experiment(conditions=Conditions(grf_noise=0.1)), "conditions = "),
-        (Experiment(fmu="Apnc.fmu"), "fmu = Apnc.fmu"),
         (Experiment(conditions=((0.0, "C1"), (5.0, "S3"))), "conditions = "),
         (Experiment(robot=Experiment().description), "robot = "),
     ],
@@ -207,6 +206,11 @@ def test_what_a_system_cannot_hold_is_refused(experiment: Experiment, words: str
     with pytest.raises(ValueError, match=re.escape(words)) as error:
         structure_of(experiment)
     assert len(str(error.value).splitlines()) == 1
+
+
+def test_a_controller_of_ones_own_is_refused(fmu4: Path) -> None:
+    with pytest.raises(ValueError, match=r"fmu = .*Apnc\.fmu of a system; allowed: the built one"):
+        structure_of(Experiment(fmu=str(fmu4)))
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from c_plant import Numbers, changed, kerb, lib, obstacles, plane, random_fields, robot_of, waves
+from c_plant import (
+    CPlant,
+    Numbers,
+    changed,
+    kerb,
+    lib,
+    obstacles,
+    plane,
+    random_fields,
+    robot_of,
+    same_bits,
+    trot,
+    waves,
+)
 from c_plant_checks import LATE, grounds, kinds, side_by_side
 
 from apnc_plant.numbers import robot_numbers
@@ -95,3 +108,24 @@ def test_the_sign_of_a_zero_that_all_legs_share_is_kept(kind: tuple[int, int]) -
 
     for lane in side_by_side(lib(), *kind, 5, [plane()], ticks=5, robot=robot):
         assert lane.same
+
+
+def test_levels_may_change_on_the_way() -> None:
+    legs, kind = 5, lib().PLANT_LEGS
+    plants = [CPlant(legs, kind=which) for which in (lib().PLANT_SCALAR, kind)]
+    for plant in plants:
+        plant.place(robot_of(random_fields(np.random.default_rng(1), legs)), plane())
+    for tick in range(30):
+        lib().plant_use_level(plants[1].memory, tick % (lib().plant_best_level() + 1))
+        assert same_bits(*(plant.tick(*trot(legs, tick)) for plant in plants))
+
+
+def test_a_level_that_lays_out_a_plant_otherwise_is_not_taken() -> None:
+    legs, kind = 3, lib().PLANT_ROBOTS
+    widths = [lib().plant_lanes(kind, level) for level in range(lib().plant_best_level() + 1)]
+    plant = CPlant(legs, kind=kind, level=0)
+    before = plant.bytes()
+    for level, width in enumerate(widths):
+        lib().plant_use_level(plant.memory, level)
+        assert (plant.bytes() == before) == (level == 0 or width != widths[0])
+        lib().plant_use_level(plant.memory, 0)

@@ -106,16 +106,6 @@ static void case_ground_of(case_ground *g, int32_t kind) {
     }
 }
 
-/* Put a robot on a ground as a caller does. found: room for 4 numbers per contact. */
-static void case_place(void *plant, int32_t lane, const plant_robot *robot,
-                       const plant_ground *ground, uint64_t seed, double Ts) {
-    static double found[4 * 1024];
-    double start[6 + 3 * CASE_LEGS];
-    const double angles[3] = {0.0, 0.0, 0.0};
-    plant_start(robot, ground, angles, 0.001, found, start);
-    plant_place(plant, lane, robot, ground, seed, start, 0.0, Ts);
-}
-
 /* A triangle between -1 and 1. */
 static double case_wave(double phase) {
     const double part = phase - floor(phase);

@@ -16,6 +16,16 @@ static plant_leg leg[LANES][CASE_LEGS];
 static case_ground ground[LANES];
 static uint64_t hash_of_scalar[LANES];
 
+/* Put a robot on a ground as a caller does. found: room for 4 numbers per contact. */
+static void case_place(void *plant, int32_t lane, const plant_robot *robot,
+                       const plant_ground *ground, uint64_t seed, double Ts) {
+    static double found[4 * 1024];
+    double start[6 + 3 * CASE_LEGS];
+    const double angles[3] = {0.0, 0.0, 0.0};
+    plant_start(robot, ground, angles, 0.001, found, start);
+    plant_place(plant, lane, robot, ground, seed, start, 0.0, Ts);
+}
+
 static void mix(uint64_t *hash, const double *numbers, int count) {
     for (int i = 0; i < count; i++) {
         uint64_t bits;

@@ -1,0 +1,35 @@
+"""Values as they are given, in Python's own types: done once, where a value comes in."""
+
+from __future__ import annotations
+
+import os
+from enum import Enum
+from numbers import Integral, Real
+from typing import Any, Final
+
+_OWN: Final = frozenset((float, int, bool, str, type(None)))
+
+
+def in_python(value: object) -> Any:
+    """A value with numbers and arrays of numpy as Python's own, and a path as text.
+
+    Args:
+        value: anything; a list or tuple is gone through, what is no number, array or path stays.
+
+    What it gives can be written as JSON, and is equal to what was given.
+    """
+    if type(value) in _OWN or isinstance(value, Enum):
+        return value
+    if hasattr(value, "tolist"):  # of numpy, which takes long to import
+        value = value.tolist()
+    if isinstance(value, list):
+        return [in_python(entry) for entry in value]
+    if isinstance(value, tuple):
+        return tuple(in_python(entry) for entry in value)
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, bool):
+        return value
+    if isinstance(value, Integral):
+        return int(value)
+    return float(value) if isinstance(value, Real) else value

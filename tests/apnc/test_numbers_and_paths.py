@@ -1,0 +1,200 @@
+"""What is a number or a path is taken as one, wherever it comes in, and can be saved."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from apnc import (
+    Conditions,
+    Experiment,
+    Gait,
+    Ground,
+    Kerb,
+    Plane,
+    Waves,
+    load_robot,
+    read_gait,
+    run_study,
+    write_gait,
+)
+from apnc.loop.fmu_controller import FmuController
+from apnc.loop.plain import plain
+from apnc.studies.engine import grid_of
+from apnc_core.in_python import in_python
+from apnc_core.settings import checked
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import ROBOTS
+from build_fmu.build import build_key
+from build_fmu.options import BuildOptions
+
+LILIBOT = load_robot("lilibot")
+QUARTER = np.float32(0.25)  # exact in single precision, too
+
+SAME: list[tuple[Callable[[Any], Any], Any, Any]] = [
+    (lambda x: Experiment(mi=x), QUARTER, 0.25),
+    (lambda x: Experiment(mi=x), np.array(0.25), 0.25),
+    (lambda x: Experiment(mi=x), Fraction(1, 4), 0.25),
+    (lambda x: Experiment(mi=x), np.array([[0.0, 0.25], [5.0, 0.5]]), ((0.0, 0.25), (5.0, 0.5))),
+    (lambda x: Experiment(turn=((0, x),)), QUARTER, 0.25),
+    (lambda x: Experiment(reset=x), np.True_, True),
+    (lambda x: Experiment(seed=x), np.uint64(3), 3),
+    (lambda x: Experiment(duration=x), np.float32(2), 2.0),
+    (lambda x: Experiment(rate=x), np.int32(50), 50.0),
+    (lambda x: Experiment(step=x), np.float64(0.001), 0.001),
+    (lambda x: Experiment(method=x), np.str_("apc"), "apc"),
+    (lambda x: Experiment(robot=x), ROBOTS / "hexapod.toml", str(ROBOTS / "hexapod.toml")),
+    (lambda x: Experiment(settings={"xi": x}), QUARTER, 0.25),
+    (lambda x: Experiment(settings={"N": x}), np.int16(40), 40),
+    (lambda x: Experiment(settings={"phi_frozen": x}), np.False_, False),
+    (lambda x: Experiment(settings={"phi_stored": x}), np.array([1.0, 2.0, 3.0]), (1, 2, 3)),
+    (lambda x: Experiment(ground=Ground(seed=x)), np.int64(3), 3),
+    (lambda x: Experiment(ground=Ground(roughness=x)), QUARTER, 0.25),
+    (lambda x: Experiment(ground=Ground(diameters=x)), np.array([0.05, 0.1]), (0.05, 0.1)),
+    (lambda x: Experiment(ground=Kerb(at=x)), QUARTER, 0.25),
+    (lambda x: Experiment(ground=Waves(wavelength=x)), QUARTER, 0.25),
+    (lambda x: Experiment(ground=Plane(slope=x)), QUARTER, 0.25),
+    (lambda x: Experiment(conditions=Conditions(payload=x)), QUARTER, 0.25),
+    (lambda x: Experiment(conditions=Conditions(stuck={"RF": x})), QUARTER, 0.25),
+    (lambda x: Experiment(conditions=Conditions(held_at=x)), QUARTER, 0.25),
+    (lambda x: Experiment(robot=replace(LILIBOT, controller={"xi": x})), QUARTER, 0.25),
+    (
+        lambda x: Experiment(robot=replace(LILIBOT, servo=replace(LILIBOT.servo, damping=x))),
+        QUARTER,
+        0.25,
+    ),
+    (
+        lambda x: Experiment(
+            robot=replace(
+                LILIBOT,
+                trunk=replace(LILIBOT.trunk, body=replace(LILIBOT.trunk.body, com=x)),
+            )
+        ),
+        np.array([0.25, 0.0, 0.0], dtype=np.float32),
+        (0.25, 0.0, 0.0),
+    ),
+]
+
+
+@pytest.mark.parametrize(("make", "given", "own"), SAME, ids=range(len(SAME)))
+def test_an_experiment_is_the_same_and_can_be_saved(
+    make: Callable[[Any], Experiment], given: Any, own: Any
+) -> None:
+    found, usual = make(given), make(own)
+    assert found == usual and hash(found) == hash(usual)
+    assert found.key() == usual.key() and found.command() == usual.command()
+    assert json.dumps(found.to_dict()) == json.dumps(usual.to_dict())
+    assert Experiment.from_dict(json.loads(json.dumps(found.to_dict()))) == found
+
+
+def test_an_fmu_may_be_a_path(fmu4: Path) -> None:
+    assert Experiment(fmu=fmu4) == Experiment(fmu=str(fmu4))  # type: ignore[arg-type]
+
+
+def test_a_float_of_single_precision_is_the_number_that_it_is() -> None:
+    assert Experiment(mi=np.float32(0.1)).mi == float(np.float32(0.1)) != 0.1
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"mi": "0.1"}, "mi = '0.1' is not a number"),
+        ({"seed": True}, "seed = True is not a whole number from 0 to 2^64 - 1"),
+        ({"seed": np.float64(3)}, "seed = 3.0 is not a whole number"),
+        ({"rate": "fast"}, "rate = 'fast' is not a number"),
+        ({"duration": None}, "duration = None is not a number"),
+        ({"step": "0.001"}, "step = '0.001' is not a number"),
+        ({"robot": 5}, "robot = 5 is not a name, a file or a description"),
+        ({"fmu": 5}, "fmu = 5 is not a file"),
+        ({"settings": None}, "settings = None are not values by name"),
+        ({"settings": {"N": np.float32(40)}}, "N = 40.0; allowed: a whole number"),
+        ({"settings": {"xi": np.array([0.1, 0.2])}}, "xi = [0.1, 0.2]; allowed: a number"),
+    ],
+)
+def test_what_is_neither_is_refused_for_what_it_is(change: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(words)):
+        Experiment(**change)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Ground(roughness="rough"), "roughness is 'rough'; allowed: a finite number"),
+        (lambda: Ground(seed=1.5), "seed is 1.5; allowed: a whole number"),
+        (lambda: Plane(slope=None), "slope is None; allowed: a finite number"),
+        (lambda: Conditions(payload="heavy"), "payload is heavy; allowed: a finite number"),
+        (lambda: Conditions(stuck={"RF": None}), "stuck[RF] is None; allowed: a finite number"),
+        (lambda: PlantOptions(clearance="low"), "clearance is low; allowed: a finite number"),
+        (lambda: Gait(("RF", "RH"), ("x",)), "relation of leg RH is x; "),
+        (lambda: Gait(("RF", 3), (1.0,)), "leg 3 is not a name"),
+        (lambda: Gait("RF", (1.0,)), "legs = 'RF' is not one entry per leg"),
+        (lambda: grid_of("mi", 2.5), "trials = 2.5 is not a whole number"),
+        (lambda: grid_of("mi", 1, chosen={"mi": 0.1}), "mi = 0.1 is not a list of values"),
+        (lambda: grid_of("mi", 1, chosen={"mi": [None]}), "mi = None: not a number"),
+    ],
+)
+def test_nor_anywhere_else(make: Callable[[], Any], words: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(words)):
+        make()
+
+
+def test_a_gait_takes_lists_and_arrays(tmp_path: Path) -> None:
+    gait = Gait(("RF", "RH", "LF", "LH"), (3.25, 3.0, 0.5))
+    given = Gait(["RF", "RH", "LF", "LH"], np.array([3.25, 3.0, 0.5], np.float32))  # type: ignore[arg-type]
+    assert given == gait and given.settings(gait.legs) == gait.settings(gait.legs)
+    write_gait(given, tmp_path / "gait.json")
+    assert read_gait(tmp_path / "gait.json") == gait
+
+
+def test_a_study_takes_arrays_and_paths(tmp_path: Path) -> None:
+    rows = run_study(
+        "mi",
+        trials=np.int64(1),  # type: ignore[arg-type]
+        methods=np.array(["apnc"]),  # type: ignore[arg-type]
+        chosen={"mi": np.array([0.1, 0.2])},  # type: ignore[dict-item]
+        duration=np.float32(0.5),  # type: ignore[arg-type]
+        robot=ROBOTS / "hexapod.toml",  # type: ignore[arg-type]
+        output=tmp_path,
+    )
+    usual = grid_of("mi", 1, ["apnc"], {"mi": [0.1, 0.2]}, 0.5, str(ROBOTS / "hexapod.toml"))
+    assert [row["key"] for row in rows] == [trial.place[-1] for trial in usual]
+    stored = [json.loads(line) for line in (tmp_path / "trials.jsonl").read_text().splitlines()]
+    assert {row["robot"] for row in stored} == {str(ROBOTS / "hexapod.toml")}
+    assert {row["error"] for row in stored} == {""}
+
+
+def test_a_build_is_the_same() -> None:
+    own = BuildOptions(legs=4, fmi=2, memory=(1.0, 2.0, 0.5), settings={"xi": 0.25})
+    given = BuildOptions(
+        legs=np.int64(4),  # type: ignore[arg-type]
+        fmi=np.int8(2),  # type: ignore[arg-type]
+        memory=np.array([1.0, 2.0, 0.5]),  # type: ignore[arg-type]
+        settings={"xi": QUARTER},
+    )
+    assert given == own and build_key(given) == build_key(own)
+
+
+def test_a_controller_takes_arrays(fmu4: Path) -> None:
+    with FmuController(fmu4, {"phi_stored": np.array([1.0, 2.0, 0.5]), "N": np.int64(40)}) as fmu:  # type: ignore[dict-item]
+        found = fmu.parameters()
+    assert (found["phi_stored"], found["N"]) == ((1.0, 2.0, 0.5), 40)
+
+
+def test_robots_by_their_path() -> None:
+    assert load_robot(ROBOTS / "lilibot.toml") == LILIBOT
+
+
+def test_what_is_no_number_stays_what_it_is() -> None:
+    kept = (checked("method", "apc"), {"a": 1}, "text", None, object)
+    assert in_python(kept) == kept and all(
+        a is b for a, b in zip(in_python(kept), kept, strict=True)
+    )
+    assert plain(in_python([np.int8(1), (np.float16(0.5), Path("x"))])) == [1, [0.5, "x"]]
