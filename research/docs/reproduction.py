@@ -41,7 +41,7 @@ def table(claims: str, reasons: dict[tuple[str, str], str]) -> list[str]:
 
 def main(claims: Sequence[Path]) -> None:
     """Rewrite the table of reproduction.md."""
-    with (DOCS / "reasons.toml").open("rb") as file:
+    with Path(__file__).with_name("reasons.toml").open("rb") as file:
         entries = tomllib.load(file)["reason"]
     reasons = {(e["where"], e["claim"]): " ".join(e["why"].split()) for e in entries}
     page = DOCS / "reproduction.md"

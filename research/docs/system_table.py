@@ -146,7 +146,7 @@ def in_c(folder: Path, experiment: Experiment) -> dict[str, Any]:
 
 def measured(data: dict[str, Any], wall: float) -> dict[str, Any]:
     """Figures of a walk."""
-    time_s = np.arange(len(data["o1"])) * Experiment().Ts
+    time_s = np.arange(len(data["o1"]), dtype=np.float64) * Experiment().Ts
     touch = metrics.touch_moment(data["grf"], Experiment().description.weight)
     target = metrics.default_target(4)
     assert target is not None
