@@ -175,7 +175,7 @@ def test_an_edit_of_a_package_with_studies_is_other_code(
         path.write_text(text)
         hash_of_package.cache_clear()
         found.append(hash_of_package("own_studies.part"))
-    monkeypatch.delitem(sys.modules, "own_studies")
+    del sys.modules["own_studies"]
     assert "" not in found
     assert (found[0] != found[1]) == counts
 
