@@ -77,7 +77,7 @@ def main(benchmarks: Mapping[str, Benchmark], about: str | None) -> None:
         rows = benchmarks[name](size)
         loads = f"Load {before} before, {load()} after."
         print(f"\n## {name}\n\n{loads}\n\n{markdown(rows)}", flush=True)
-        aimed_at += [row for row in rows if row.aim]
+        aimed_at += [replace(row, what=f"{name}: {row.what}") for row in rows if row.aim]
         found["tables"][name] = {"load": loads, "rows": [row.to_dict() for row in rows]}
         if options.json:
             options.json.write_text(json.dumps(found, indent=2) + "\n")

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
-from apnc.cli.console import File, Text, Texts, say, status, writable
+from apnc.cli.console import File, Text, Texts, apart, file_option, given, say, status, writable
 
 if TYPE_CHECKING:
     from build_fmu.options import Setting
 
 
 def build(
-    output: Annotated[Path, Option(help="File to write.")] = Path("Apnc.fmu"),
+    output: Annotated[Path, file_option("File to write.")] = Path("Apnc.fmu"),
     legs: Annotated[int | None, Option(help="Number of legs; the robot's, or 4.")] = None,
     robot: Annotated[Text, Option(help="Name or file; the shipped one of so many legs.")] = None,
     naming: Annotated[str, Option(help="structured, flat: leg[1].grf, leg1_grf.")] = "structured",
@@ -46,18 +46,19 @@ def build(
             )
             say(f"{release}: {', '.join(path.name for path in files)}")
             return
-        n_legs, settings = _of_robot(robot, legs, own=preset == OWN_PRESET)
+        apart({"--output": output}, given(robot=robot, params=params, memory=memory))
+        names, settings = _of_robot(robot, legs, own=preset == OWN_PRESET)
         settings |= read_parameters(params) if params else {}
         settings |= {"method": method} if method else {}
         settings |= dict(map(parse, setting or ()))
         options = BuildOptions(
-            legs=n_legs,
+            legs=legs or len(names),
             naming=naming,
             platforms=platform_names(platform),
             fmi=fmi,
             preset="lilibot" if preset == OWN_PRESET else preset,
             settings=settings,
-            memory=read_gait(memory).phi if memory else (),
+            memory=read_gait(memory).settings(names)["phi_stored"] if memory else (),
             enumerations=enumerations,
         )
         writable(output, file=True)
@@ -75,8 +76,12 @@ def platform_names(words: list[str] | None) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))
 
 
-def _of_robot(name: str | None, legs: int | None, *, own: bool) -> tuple[int, dict[str, Setting]]:
-    """Number of legs, and weight and preset of the robot that is named or else shipped."""
+def _of_robot(
+    name: str | None, legs: int | None, *, own: bool
+) -> tuple[tuple[str, ...], dict[str, Setting]]:
+    """Names of the legs, and weight and preset of the robot that is named or else shipped."""
+    from apnc_core.legs import leg_names
+    from apnc_core.schema import MAX_LEGS
     from apnc_core.variables import row
     from apnc_plant.robot import ROBOTS, load_robot
 
@@ -85,7 +90,7 @@ def _of_robot(name: str | None, legs: int | None, *, own: bool) -> tuple[int, di
         shipped = (load_robot(path.stem) for path in sorted(ROBOTS.glob("*.toml")))
         robot = next((each for each in shipped if len(each.legs) == legs), None)
         if robot is None:
-            return legs, {}
+            return leg_names(legs) if 2 <= legs <= MAX_LEGS else (), {}
     else:
         robot = load_robot(name)
         if legs not in (None, len(robot.legs)):
@@ -94,4 +99,4 @@ def _of_robot(name: str | None, legs: int | None, *, own: bool) -> tuple[int, di
     usual = row("robot_weight").start
     if usual is None or not math.isclose(robot.weight, usual):
         settings["robot_weight"] = robot.weight
-    return len(robot.legs), settings
+    return tuple(leg.name for leg in robot.legs), settings

@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import typer
 
 if TYPE_CHECKING:
     from rich.status import Status
@@ -35,6 +38,56 @@ def writable(path: Path, *, file: bool = False) -> Path:
     if file and path.is_dir():
         raise ValueError(f"file {path} is a folder")
     return path
+
+
+def file_option(about: str, *names: str) -> Any:
+    """An option that names a file to write.
+
+    Args:
+        about: what the help says.
+        names: of the option, if not that of its parameter.
+    """
+    return typer.Option(*names, help=about, parser=file_path, metavar="<file>")
+
+
+def file_path(text: str | Path) -> Path:
+    """A path that a file may have, unlike ``folder/``.
+
+    Raises:
+        BadParameter: it ends as a folder's does.
+    """
+    if str(text).endswith(("/", os.sep)):
+        raise typer.BadParameter(f"{text} is a folder; allowed: a file")
+    return Path(text)
+
+
+def given(**options: str | Path | None) -> dict[str, list[Path]]:
+    """The files of options that are given, by option."""
+    return {f"--{name}": [Path(file)] for name, file in options.items() if file is not None}
+
+
+def apart(outputs: Mapping[str, Path | None], others: Mapping[str, Iterable[Path]]) -> None:
+    """Refuse to write a file that is written twice, or over one that is read.
+
+    Args:
+        outputs: file of each option that is written, or None.
+        others: files of other options, written or read.
+
+    Raises:
+        ValueError: two of them are one file.
+    """
+    taken = dict(others)
+    for option, path in outputs.items():
+        if path is None:
+            continue
+        for name, paths in taken.items():
+            if any(_same(path, other) for other in paths):
+                raise ValueError(f"{option} {path} would overwrite a file of {name}")
+        taken[option] = [path]
+
+
+def _same(a: Path, b: Path) -> bool:
+    return a.samefile(b) if a.exists() and b.exists() else a.resolve() == b.resolve()
 
 
 def say(text: str, *, error: bool = False) -> None:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 import apnc
-from apnc.cli.console import say, writable
+from apnc.cli.console import apart, file_path, say, writable
+from apnc.report import RUN_FILES
 
 if TYPE_CHECKING:
     from apnc.loop.gait import Gait
@@ -22,7 +23,7 @@ app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Learned gai
 @app.command("save")
 def save(
     run: Annotated[Path, typer.Argument(help="Output folder of a walk.")],
-    file: Annotated[Path, typer.Argument(help="Gait file to write.")],
+    file: Annotated[Path, typer.Argument(help="Gait file to write.", parser=file_path)],
     form: Annotated[
         str, typer.Option("--format", help="json for apnc walk, ssv for tools of SSP.")
     ] = "json",
@@ -30,6 +31,7 @@ def save(
     """Write the gait that a run has stored."""
     if form not in FORMATS:
         raise ValueError(f"format '{form}' is not one of {', '.join(FORMATS)}")
+    apart({"file": file}, {"the run": [run / name for name in RUN_FILES]})
     gait = apnc.gait_of_run(run)
     writable(file, file=True)
     if form == "ssv":

@@ -14,9 +14,23 @@ import typer
 from typer import Option
 
 import apnc
-from apnc.cli.console import File, Number, Text, Texts, bar, say, show_table, status, writable
+from apnc.cli.console import (
+    File,
+    Number,
+    Text,
+    Texts,
+    apart,
+    bar,
+    file_option,
+    given,
+    say,
+    show_table,
+    status,
+    writable,
+)
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.loop.steps import parse_steps
+from apnc.report import RUN_FILES
 from apnc_core.enumerations import Method
 from apnc_plant.conditions import CONDITIONS
 
@@ -60,8 +74,8 @@ def walk(
     engine: Annotated[Text, Option(help="exudyn, mujoco, compiled; exudyn if omitted.")] = None,
     fmu: Annotated[Text, Option(help="Of one's own; its start values hold unless set.")] = None,
     output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),
-    json_file: Annotated[File, Option("--json", help="Write the summary here as well.")] = None,
-    mcap: Annotated[File, Option(help="Write an MCAP log here (Foxglove, PlotJuggler).")] = None,
+    json_file: Annotated[File, file_option("Write the summary here as well.", "--json")] = None,
+    mcap: Annotated[File, file_option("An MCAP log to write (Foxglove, PlotJuggler).")] = None,
 ) -> None:
     """Walk a robot under the FMU; write summary.json, record.csv and report.html.
 
@@ -69,6 +83,9 @@ def walk(
     Exit code 0 if the walk came to its planned end, 1 if the robot fell or its motion diverged.
     """
     with status("starting"):
+        read = given(robot=robot, params=params, memory=memory, fmu=fmu)
+        written = {"--output": [output / name for name in RUN_FILES]}
+        apart({"--json": json_file, "--mcap": mcap}, read | written)
         experiment = experiment_of(context.params)
         writable(output)
         json_path = writable(json_file, file=True) if json_file else None

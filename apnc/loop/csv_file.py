@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 from typing import Final
 
@@ -19,8 +20,8 @@ def write_csv(record: Record, path: Path) -> None:
         OSError: the file cannot be written.
     """
     table = columns(record)
-    with path.open("w", encoding="utf-8", newline="\n") as file:
-        file.write(",".join(table) + "\n")
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerow(table)
         for begin in range(0, len(record), _ROWS):  # in parts: a walk of an hour has 200,000 rows
             part = [values[begin : begin + _ROWS] for values in table.values()]
             np.savetxt(file, np.column_stack(part), fmt="%.9g", delimiter=",")

@@ -260,6 +260,8 @@ class Experiment:
         Raises:
             ValueError: not such data.
         """
+        if not isinstance(data, Mapping):
+            raise ValueError(f"not an experiment: a {type(data).__name__} in place of a table")
         values = dict(data)
         try:
             values["robot"] = made(RobotDescription, values["robot"])
@@ -267,7 +269,9 @@ class Experiment:
             for name in _OVER_TIME:
                 values[name] = mapped(values[name], lambda value: made(Conditions, value))
             return cls(**values)
-        except (KeyError, TypeError) as error:
+        except KeyError as error:
+            raise ValueError(f"not an experiment: it has no {error}") from None
+        except (AttributeError, TypeError) as error:  # a text or a list in place of a table
             raise ValueError(f"not an experiment: {error}") from None
 
     def key(self) -> str:

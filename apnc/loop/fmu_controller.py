@@ -356,6 +356,8 @@ def describe_fmu(path: Path | str) -> Any:
     Raises:
         FmuError: there is no such file, or it is no such FMU.
     """
+    if Path(path).is_dir():
+        raise FmuError(f"{path}: a folder, not an FMU")
     if not Path(path).is_file():
         raise FmuError(f"{path}: no such file")
     if not zipfile.is_zipfile(path):

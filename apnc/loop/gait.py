@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import json
 import math
-from collections import deque
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from apnc.loop.last_row import last_row
 from apnc_core.in_python import in_python
 from apnc_core.variables import row
 
@@ -79,22 +78,20 @@ def gait_of_run(folder: Path | str) -> Gait:
         folder: output folder of ``apnc walk``.
 
     Raises:
-        GaitError: no run, or a run whose couplings were off at the end.
+        GaitError: no run, a damaged record, or a run whose couplings were off at the end.
     """
     path = Path(folder) / "record.csv"
     try:
-        with path.open(encoding="utf-8") as file:
-            newest = deque(csv.DictReader(file), maxlen=1)
-    except OSError as error:
-        raise GaitError(f"{path} cannot be read: {error.strerror}") from None
-    last = newest[0] if newest else {}
-    relations = [name for name in last if name.startswith("phi_memory")]
-    if not relations or "kappa" not in last:
-        raise GaitError(f"{path} is not the record of a walk")
-    if float(last["kappa"]) != 1.0:
-        raise GaitError(f"{folder}: no gait was stored in this run (kappa is 0 at its end)")
+        last = last_row(path)
+    except ValueError as error:
+        raise GaitError(str(error)) from None
     legs = tuple(name.removesuffix(".o1") for name in last if name.endswith(".o1"))
-    return Gait(legs, tuple(float(last[name]) for name in relations))
+    relations = [f"phi_memory1{k}" for k in range(2, len(legs) + 1)]
+    if not relations or not {"kappa", *relations} <= last.keys():
+        raise GaitError(f"{path} is not the record of a walk")
+    if last["kappa"] != 1.0:
+        raise GaitError(f"{folder}: no gait was stored in this run (kappa is 0 at its end)")
+    return Gait(legs, tuple(last[name] for name in relations))
 
 
 def _checksum(content: dict[str, Any]) -> str:
@@ -125,7 +122,7 @@ def read_gait(path: Path | str) -> Gait:
         content = json.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
         raise GaitError(f"{path} cannot be read: {error.strerror}") from None
-    except ValueError:
+    except (ValueError, RecursionError):
         raise GaitError(f"{path} is not a gait file, or damaged: not JSON") from None
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise GaitError(f"{path} is not a gait file")

@@ -26,15 +26,21 @@ def read_parameters(path: Path) -> dict[str, Any]:
     try:
         text = path.read_text(encoding="utf-8")
         content = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text)
-        if not isinstance(content, dict):
-            raise ValueError("not a table of NAME: VALUE")
-        values = content
-        if isinstance(content.get("parameters"), dict):
-            values = dict(content["parameters"])
-            if "robot_weight" not in content.get("experiment", {}).get("settings", {}):
+        values = _table(content, "")
+        if "parameters" in values:
+            experiment = _table(values.get("experiment", {}), "experiment")
+            settings = _table(experiment.get("settings", {}), "experiment.settings")
+            values = dict(_table(values["parameters"], "parameters"))
+            if "robot_weight" not in settings:
                 values.pop("robot_weight", None)
         return {name: checked(name, value) for name, value in values.items()}
     except OSError as error:
         raise ValueError(f"parameter file {path} cannot be read: {error.strerror}") from None
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise ValueError(f"parameter file {path}: {error}") from None
+
+
+def _table(value: Any, name: str) -> dict[str, Any]:
+    if isinstance(value, dict):
+        return value
+    raise ValueError(f"{name and f'{name} is '}not a table of NAME: VALUE")

@@ -1,1 +1,6 @@
 """Reports: one HTML file with plots that is readable offline, and the folder of a run."""
+
+from typing import Final
+
+RUN_FILES: Final = ("summary.json", "record.csv", "report.html")
+"""Files in the folder of a run."""

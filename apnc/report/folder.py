@@ -13,12 +13,12 @@ from typing import Final
 from apnc.loop.csv_file import write_csv
 from apnc.loop.provenance import what_was_run
 from apnc.loop.record import Record, column_names
+from apnc.report import RUN_FILES
 from apnc.report.locks import one_at_a_time
 from apnc.report.page import render
 from apnc.summary import Summary, summarise
 
 Write = Callable[[Path], object]
-
 _ASIDE: Final = ".writing-"
 
 LEFT_S: Final = 86400.0
@@ -104,10 +104,10 @@ def write_run(record: Record, folder: Path | str) -> Summary:
     units = {"columns": {column.name: column.unit for column in column_names(record)}}
     content = summary.to_dict() | what_was_run(record.experiment, record.parameters) | units
     text = json.dumps(content, indent=2, allow_nan=False) + "\n"
-    files: dict[str, Write] = {
-        "summary.json": lambda path: path.write_text(text, encoding="utf-8"),
-        "record.csv": lambda path: write_csv(record, path),
-        "report.html": lambda path: path.write_text(render(record, summary), encoding="utf-8"),
-    }
-    write_together(Path(folder), files)
+    writers: tuple[Write, ...] = (
+        lambda path: path.write_text(text, encoding="utf-8"),
+        lambda path: write_csv(record, path),
+        lambda path: path.write_text(render(record, summary), encoding="utf-8"),
+    )
+    write_together(Path(folder), dict(zip(RUN_FILES, writers, strict=True)))
     return summary

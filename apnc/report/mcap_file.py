@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
 from scipy.spatial.transform import Rotation
 
 from apnc.loop.record import Record
+from apnc_plant.robot.names import plain_names
 
 _SEPARATOR: Final = "=" * 80
 _TIME: Final = "int32 sec\nuint32 nanosec\n"
@@ -57,10 +59,11 @@ def write_mcap(record: Record, path: Path) -> None:
 
     Topics: ``/joint_states`` and ``/joint_commands`` (JointState), ``/trunk`` (PoseStamped),
     ``/foot_force/RF`` ... (WrenchStamped, world frame), ``/apnc/phi12`` ..., ``/apnc/kappa``,
-    ``/apnc/d`` (Float64). Time starts at 0.
+    ``/apnc/d`` (Float64). Time starts at 0. In topics and names of joints legs have plain names.
     """
     from mcap_ros2.writer import Writer  # noqa: PLC0415  # an extra
 
+    record = replace(record, legs=plain_names(record.legs))
     with path.open("wb") as file:
         writer = Writer(file)
         schemas = {

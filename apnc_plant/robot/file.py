@@ -46,7 +46,7 @@ def load_robot(name_or_path: str | Path) -> RobotDescription:
     path = _find(str(name_or_path))
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
         raise RobotDescriptionError(f"robot file {path}: not readable as TOML ({error})") from error
     try:
         return _robot(data)

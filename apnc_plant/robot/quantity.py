@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final, get_type_hints
+from unicodedata import category
 
 from apnc_core.in_python import in_python
 
@@ -37,7 +38,8 @@ class Rule:
         low, high: range of the numbers, ends included.
         positive: 0 is excluded, and what is below.
         count: how many numbers.
-        words: for a field that is a text: the texts allowed; empty: any but an empty one.
+        words: for a field that is a text: the texts allowed; empty: any that is not blank and has
+            no control characters.
     """
 
     unit: str = ""
@@ -51,7 +53,7 @@ class Rule:
     def allowed(self) -> str:
         """What is allowed, in words."""
         if self.words is not None:
-            return " or ".join(self.words) or "a name"
+            return " or ".join(self.words) or "a name without control characters"
         many = "a finite number" if self.count == 1 else "three finite numbers"
         bounds = f" from {self.low:g} to {self.high:g}" if self.low > -math.inf else ""
         unit = f" [{self.unit}]" if self.unit else ""
@@ -60,7 +62,7 @@ class Rule:
     def fits(self, value: object) -> bool:
         """Whether a value is allowed."""
         if self.words is not None:
-            return isinstance(value, str) and value != "" and value in (self.words or value)
+            return isinstance(value, str) and (value in self.words or self._fits_name(value))
         if self.count == 1:
             return self._fits_number(value)
         return (
@@ -68,6 +70,12 @@ class Rule:
             and len(value) == self.count
             and all(self._fits_number(item) for item in value)
         )
+
+    def _fits_name(self, value: str) -> bool:
+        """Whether any text is allowed, and this one can stand in a line of any file."""
+        lines = {"Cc", "Cs", "Zl", "Zp"}  # controls, surrogates, ends of lines and paragraphs
+        odd = any(category(c) in lines or ord(c) & 0xFFFE == 0xFFFE for c in value)
+        return self.words == () and value.strip() != "" and not odd
 
     def _fits_number(self, value: object) -> bool:
         if isinstance(value, bool) or not isinstance(value, int | float):

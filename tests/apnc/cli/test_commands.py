@@ -22,7 +22,7 @@ from terminal import APNC, apnc
 from apnc import Gait, read_gait, write_gait
 from apnc.cli import main as command_line
 from apnc.studies.registry import STUDIES
-from apnc_plant.robot import load_robot
+from apnc_plant.robot import ROBOTS, load_robot
 
 HEAVY = {"exudyn", "apnc_plant.ground", "fmpy", "loky", "numpy", "plotly", "scipy"}
 
@@ -92,6 +92,31 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["walk", "--memory", "text.fmu"], "text.fmu is not a gait file"),
         (["walk", "--output", "text.fmu/x"], "output folder text.fmu/x cannot be written"),
         (["walk", "--json", "."], "file . is a folder"),
+        (["walk", "--json", "new/"], "'--json': new/ is a folder; allowed: a file"),
+        (["walk", "--mcap", "new/"], "'--mcap': new/ is a folder"),
+        (["build", "--output", "new/"], "'--output': new/ is a folder"),
+        (["bench", "--output", "new/"], "'--output': new/ is a folder"),
+        (["memory", "save", "run", "new/"], "new/ is a folder"),
+        (["walk", "--json", "x", "--mcap", "x"], "--mcap x would overwrite a file of --json"),
+        (["walk", "--json", "a/../x", "--mcap", "./x"], "would overwrite a file of --json"),
+        (
+            ["walk", "--json", "apnc-walk/report.html"],
+            "--json apnc-walk/report.html would overwrite a file of --output",
+        ),
+        (["walk", "--output", "a", "--mcap", "a/record.csv"], "overwrite a file of --output"),
+        (["walk", "--fmu", "text.fmu", "--json", "text.fmu"], "overwrite a file of --fmu"),
+        (["walk", "--robot", "r.toml", "--mcap", "r.toml"], "overwrite a file of --robot"),
+        (["walk", "--params", "p.json", "--json", "p.json"], "overwrite a file of --params"),
+        (["walk", "--memory", "g.json", "--json", "g.json"], "overwrite a file of --memory"),
+        (["build", "--params", "p.ssv", "--output", "p.ssv"], "overwrite a file of --params"),
+        (["build", "--robot", "r.toml", "--output", "r.toml"], "overwrite a file of --robot"),
+        (
+            ["export-robot", "--robot", "r.toml", "--output", "./r.toml"],
+            "--output r.toml would overwrite a file of --robot",
+        ),
+        (["memory", "save", "run", "run/record.csv"], "would overwrite a file of the run"),
+        (["info", "."], ".: a folder, not an FMU"),
+        (["walk", "--fmu", "."], ".: a folder, not an FMU"),
         (["walk", "--output", ""], "--output is empty"),
         (["study", "mi", "--output=", "--trials", "1"], "--output is empty"),
         (["memory", "show", ""], "show is empty"),
@@ -120,6 +145,7 @@ def test_bad_use_is_one_line_and_code_2(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("text.fmu").write_text("no zip")
+    Path("r.toml").write_text((ROBOTS / "lilibot.toml").read_text())
     code, _, err = run(capsys, *arguments)
     assert code == 2
     assert words in err
@@ -246,6 +272,31 @@ def test_a_built_fmu_starts_with_what_was_said(
     assert start["stored"] == "true"
 
 
+@pytest.mark.parametrize(
+    ("words", "legs"),
+    [
+        ((), "RF, RH, LF, LH"),
+        (("--legs", "6"), "RF, RM, RH, LF, LM, LH"),
+        (("--robot", "own.toml"), "FR, RH, LF, LH"),
+        (("--legs", "5"), "R1, R2, L1, L2, L3"),
+    ],
+)
+def test_a_built_fmu_takes_no_gait_of_other_legs(
+    words: tuple[str, ...],
+    legs: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("own.toml").write_text((ROBOTS / "lilibot.toml").read_text().replace('"RF"', '"FR"'))
+    write_gait(Gait(("LF", "RF", "LH", "RH"), (3.1, 3.2, 0.1)), Path("gait.json"))
+    code, _, err = run(capsys, "build", *words, "--memory", "gait.json")
+    assert code == 2
+    assert f"the gait is of legs LF, RF, LH, RH; the robot has {legs}" in err
+    assert not Path("Apnc.fmu").exists()
+
+
 @pytest.mark.parametrize("words", [("--legs", "6"), ("--robot", "hexapod")])
 def test_the_fmu_of_a_robot_starts_with_the_preset_of_its_file(
     words: tuple[str, ...],
@@ -322,7 +373,7 @@ def test_a_study_is_written_and_resumed(
     assert out == "2 trials, 2 complete; report: apnc-study-mi/report.html\n"
     folder = tmp_path / "apnc-study-mi"
     rows = [json.loads(line) for line in (folder / "trials.jsonl").read_text().splitlines()]
-    assert [(row["mi"], row["duration"], row["method"]) for row in rows] == [
+    assert sorted((row["mi"], row["duration"], row["method"]) for row in rows) == [
         (0.1, 1.0, "apnc"),
         (0.2, 1.0, "apnc"),
     ]

@@ -201,12 +201,28 @@ def test_plain_files_of_parameters(name: str, text: str, tmp_path: Path) -> None
         ("p.json", '{"N": 3.7}', "p.json: N = 3.7; allowed: a whole number"),
         ("p.toml", "xi = [1]", "p.toml: xi = [1]"),
         ("p.ssv", "<x/>", "p.ssv is not an SSV file"),
+        ("p.ssv", b"\xff\xfe", "p.ssv is not an SSV file"),
+        ("p.json", b'{"xi": \xff}', "p.json: 'utf-8' codec can't decode byte 0xff in position 7"),
+        ("p.toml", b"xi = \xff", "p.toml: 'utf-8' codec can't decode byte 0xff in position 5"),
+        ("p.json", "[" * 100_000, "p.json: maximum recursion depth"),
+        ("p.json", '"text"', "p.json: not a table"),
+        ("p.json", '{"parameters": "text"}', "p.json: parameters is not a table"),
+        (
+            "p.json",
+            '{"parameters": {}, "experiment": "text"}',
+            "p.json: experiment is not a table",
+        ),
+        (
+            "p.json",
+            '{"parameters": {}, "experiment": {"settings": null}}',
+            "p.json: experiment.settings is not a table",
+        ),
     ],
 )
 def test_a_bad_file_of_parameters_is_named(
-    name: str, text: str, words: str, tmp_path: Path
+    name: str, text: str | bytes, words: str, tmp_path: Path
 ) -> None:
-    (tmp_path / name).write_text(text)
+    (tmp_path / name).write_bytes(text.encode() if isinstance(text, str) else text)
     with pytest.raises(ValueError, match=re.escape(words)):
         said("--params", str(tmp_path / name))
 

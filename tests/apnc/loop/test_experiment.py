@@ -257,11 +257,20 @@ def test_conditions_come_back_from_plain_data() -> None:
         ({"mi": [0.1, 0.2]}, "not an experiment: "),
         ({"conditions": {"cow": 1}}, "not an experiment: "),
         ({"ground": {"kind": "moon"}}, "ground 'moon' is not one of"),
+        ({"ground": "plane"}, "not an experiment: "),
+        ({"settings": None}, "settings = None are not values by name"),
+        ({"conditions": {"stuck": 5}}, "not an experiment: "),
     ],
 )
 def test_other_data_is_no_experiment(change: dict[str, Any], words: str) -> None:
     with pytest.raises(ValueError, match=re.escape(words)):
         Experiment.from_dict(Experiment().to_dict() | change)
+
+
+@pytest.mark.parametrize("data", ["text", [1, 2], None, {}])
+def test_nor_is_anything_but_a_table(data: Any) -> None:
+    with pytest.raises(ValueError, match="not an experiment: "):
+        Experiment.from_dict(data)
 
 
 def test_no_command_stands_for_an_object_that_has_no_name() -> None:

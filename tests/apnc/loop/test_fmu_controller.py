@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from apnc.loop.controller_library import controller_library
 from apnc.loop.fmu_controller import FmuController, FmuError
 from build_fmu.platforms import host_platform
 
@@ -20,6 +22,25 @@ def spoilt(fmu: Path, folder: Path, *, without: bool) -> Path:
             if not (library and without):
                 new.writestr(name, b"no library" if library else old.read(name))
     return path
+
+
+def damaged(fmu: Path, folder: Path) -> Path:
+    """A copy of an FMU of which a library's bytes are not those that were packed."""
+    path = folder / "damaged.fmu"
+    content = bytearray(fmu.read_bytes())
+    with zipfile.ZipFile(fmu) as archive:
+        member = next(i for i in archive.infolist() if i.filename.startswith("binaries/"))
+    at = member.header_offset + 200
+    content[at : at + 8] = b"\0" * 8
+    path.write_bytes(content)
+    return path
+
+
+@pytest.mark.parametrize("use", [FmuController, controller_library])
+def test_a_damaged_file_is_one_line(use: Any, fmu4: Path, tmp_path: Path) -> None:
+    with pytest.raises(FmuError, match=r"damaged\.fmu: damaged: ") as caught:
+        use(damaged(fmu4, tmp_path))
+    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from apnc import Experiment, simulate, write_report
+from apnc.loop import gait
 from apnc.loop.gait import Gait, GaitError, gait_of_run, read_gait, write_gait
 
 GAIT = Gait(("RF", "RH", "LF", "LH"), (3.37, 3.2, 0.18))
@@ -54,9 +56,49 @@ def test_a_run_without_a_stored_gait_is_refused(tmp_path: Path) -> None:
         gait_of_run(tmp_path)
 
 
+HEAD = "RF.o1,LF.o1,phi_memory12,kappa\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (f"{HEAD}0,0,3.1,1\n0,0,3.1\n", "record.csv, line 3: 3 values, where the first line has 4"),
+        (f"{HEAD}0,0,3.1,1,7\n0,0,3.1,1\n", "record.csv, line 2: 5 values, where the first"),
+        (f"{HEAD}0,0,3.1,1\n0,0,3.1,1e\n", "record.csv, line 3: could not convert string to float"),
+        (f"{HEAD}0,0,3.1,\n", "record.csv, line 2: could not convert string to float: ''"),
+        (f'{HEAD}0,0,3.1,"1\n', "record.csv, line 2: unexpected end of data"),
+        (f"{HEAD}0,0,3.1,1\n".encode() + b"0,\xff,3.1,1\n", "record.csv, line 3: no text"),
+        (f"{HEAD}0,0,3.1,1\n".encode("utf-16"), "record.csv, line 1: no text"),
+        (HEAD, "record.csv is not the record of a walk"),
+        ("", "record.csv is not the record of a walk"),
+        ("a,b\n1,2\n", "record.csv is not the record of a walk"),
+        ("RF.o1,LF.o1,phi_memory13,kappa\n0,0,3.1,1\n", "record.csv is not the record of a walk"),
+        (f"{HEAD}0,0,99,1\n", "relation of leg LF is 99.0"),
+    ],
+)
+def test_a_damaged_or_foreign_record_is_named_with_its_line(
+    content: str | bytes, words: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "record.csv"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(GaitError, match=re.escape(words)) as caught:
+        gait_of_run(tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_small_record_gives_its_gait(tmp_path: Path) -> None:
+    (tmp_path / "record.csv").write_text(f"{HEAD}0,0,0,0\n0,0,3.1,1\n\n")
+    assert gait_of_run(tmp_path) == Gait(("RF", "LF"), (3.1,))
+
+
 def changed(**changes: object) -> str:
     content = {"format": "apnc-gait", "version": 1, "unit": "rad", "legs": ["RF"], "phi": []}
     return json.dumps(content | changes)
+
+
+def signed(**changes: object) -> str:
+    content = json.loads(changed(**changes))
+    return json.dumps(content | {"sha256": gait._checksum(content)})
 
 
 @pytest.mark.parametrize(
@@ -68,6 +110,11 @@ def changed(**changes: object) -> str:
         (changed(version=2), "has version 2; 1 is known"),
         (changed(), "checksum does not fit"),
         (changed(sha256="0" * 64), "checksum does not fit"),
+        ("[" * 100_000, "not JSON"),
+        (signed(legs=["RF", 5], phi=[1.0]), r"gait\.json: leg 5 is not a name"),
+        (signed(legs=["RF", "LF"], phi=["x"]), r"gait\.json: relation of leg LF is x"),
+        (signed(legs=["RF", "LF"], phi=1.0), r"gait\.json: phi = 1\.0 is not one entry per leg"),
+        (signed(legs="RF"), r"gait\.json: legs = 'RF' is not one entry per leg"),
     ],
 )
 def test_foreign_and_damaged_files_are_refused(text: str, words: str, tmp_path: Path) -> None:
