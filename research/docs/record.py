@@ -18,8 +18,8 @@ HEAD = """# record.csv
 
 One row per tick of the controller, every quantity of the run, SI units throughout; read it with
 `pandas.read_csv("record.csv")` or `numpy.genfromtxt("record.csv", delimiter=",", names=True)`. A
-name with a comma in it stands in quotation marks, as in any CSV; pandas and the module `csv` read that.
-The units stand in `summary.json` as well, under `columns`.
+name with a comma in it stands in quotation marks, as in any CSV; pandas and the module `csv` read
+that. The units stand in `summary.json` as well, under `columns`.
 
 - `LEG.` stands for the name of each leg in the order of the robot, e.g. `RF.o1`, `RH.o1`; `1k` for
   the relation of leg 1 and leg k, counted in that order: `phi12`, `phi13`, `phi14`.

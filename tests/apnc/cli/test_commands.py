@@ -95,7 +95,6 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["walk", "--json", "new/"], "'--json': new/ is a folder; allowed: a file"),
         (["walk", "--mcap", "new/"], "'--mcap': new/ is a folder"),
         (["build", "--output", "new/"], "'--output': new/ is a folder"),
-        (["bench", "--output", "new/"], "'--output': new/ is a folder"),
         (["memory", "save", "run", "new/"], "new/ is a folder"),
         (["walk", "--json", "x", "--mcap", "x"], "--mcap x would overwrite a file of --json"),
         (["walk", "--json", "a/../x", "--mcap", "./x"], "would overwrite a file of --json"),
