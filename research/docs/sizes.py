@@ -1,6 +1,6 @@
 """Put what every package and extra weighs into docs/install.md, as installed in this environment.
 
-python -m research.docs.sizes        (needs ``pip install -e ".[dev,search]"``)
+python -m research.docs.sizes        (needs ``pip install -e ".[test]"``)
 
 Names, and what each is for, stand in the page; only the numbers are written anew.
 """
