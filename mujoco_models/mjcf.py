@@ -13,10 +13,10 @@ from scipy.spatial.transform import Rotation
 from apnc_plant.ground import GroundInC, Plane
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot.links import links_of
+from apnc_plant.robot.links import JOINT_RANGE, links_of
 from apnc_plant.robot.model import GRAVITY, Leg, MassProperties, RobotDescription
 from apnc_plant.start import start_coordinates
-from mujoco_models.contact import IMPRATIO, Pair
+from mujoco_models.contact import IMPRATIO, STEP, Geom, geom_of, pair_of
 
 SERVOS: Final = ("position", "dcmotor")
 """How the servos are written, see :func:`robot_mjcf`."""
@@ -29,7 +29,6 @@ _BASE: Final = (
     ("hinge", "pitch", "0 1 0"),
     ("hinge", "roll", "1 0 0"),
 )
-_STEP: Final = 1.0 / 1920.0  # at twice that MuJoCo's own contact is 21 % off in force
 _RUBBER, _PLASTIC = "0.15 0.15 0.15 1", "0.55 0.6 0.65 1"
 
 Element = ElementTree.Element
@@ -51,18 +50,23 @@ def tree_mjcf(robot: RobotDescription, trunk: MassProperties) -> str:
         _add(body, "joint", name=name, type=kind, axis=axis)
     _inertial(body, trunk)
     for leg in robot.legs:
-        _leg(body, leg, robot, tree=True)
+        _leg(body, leg, robot)
     return _text(root)
 
 
-def robot_mjcf(robot: RobotDescription, pairs: Sequence[Pair], *, servo: str = "position") -> str:
+def robot_mjcf(
+    robot: RobotDescription, admittances: Sequence[float], *, servo: str = "position"
+) -> str:
     """The robot for other users: free base, servos, sensors, a level ground and something to see.
 
-    Joint angles, their signs and the reference pose are ours, see ``apnc_plant.channels``.
+    Joint angles, their signs and the reference pose are ours, see ``apnc_plant.channels``. In the
+    keyframe ``stand`` all joints are at 0 and the lowest foot touches the ground. Trunk, hip and
+    femur links touch as their boxes whatever is in the scene, but not each other.
 
     Args:
-        robot: the robot.
-        pairs: contact of every foot with the ground.
+        robot: the robot, with plain names.
+        admittances: A of every foot, MuJoCo's ``body_invweight0`` [1/kg], which the numbers of
+            its contact hang on.
         servo: ``position`` for MuJoCo of any age: stiffness, damping and stall torque, but the
             line from stall torque to no-load speed is a mere number in ``custom``; or ``dcmotor``
             for MuJoCo 3.12 and newer, which has that line too.
@@ -73,18 +77,22 @@ def robot_mjcf(robot: RobotDescription, pairs: Sequence[Pair], *, servo: str = "
     if servo not in SERVOS:
         raise ValueError(f"servo '{servo}' is not one of {', '.join(SERVOS)}")
     root, body = _model(robot)
-    ground = GroundInC(Plane(), robot.contact.foot_radius)
-    body.set("pos", _numbers(start_coordinates(robot_numbers(robot), ground, PlantOptions())[:3]))
+    ground, start = GroundInC(Plane(), robot.contact.foot_radius), PlantOptions()
+    place = _numbers(start_coordinates(robot_numbers(robot), ground, start)[:3])
+    body.set("pos", place)
     _add(body, "freejoint", name="base")
     trunk = robot.trunk
     _inertial(body, trunk.loaded(0.0, 0.0))
-    _box(body, trunk.center, trunk.body.size)
+    _box(body, trunk.center, trunk.body.size, _TOUCHING)
     _add(body, "site", name="imu")
-    for leg in robot.legs:
-        _leg(body, leg, robot, tree=False)
-    _ground(root, robot, pairs)
+    for leg, admittance in zip(robot.legs, admittances, strict=True):
+        _leg(body, leg, robot, geom_of(robot, admittance))
+    _ground(root, robot, admittances)
     _actuators(root, robot, servo)
     _sensors(root, robot)
+    at_rest = _numbers([0.0] * len(joints_of(robot)))
+    stand = {"qpos": f"{place} 1.0 0.0 0.0 0.0 {at_rest}", "ctrl": at_rest}
+    _add(_add(root, "keyframe"), "key", stand, name="stand")
     return _text(root)
 
 
@@ -105,7 +113,7 @@ def _model(robot: RobotDescription) -> tuple[Element, Element]:
     _add(
         root,
         "option",
-        timestep=repr(_STEP),
+        timestep=repr(STEP),
         gravity=_numbers((0.0, 0.0, -GRAVITY)),
         integrator="implicitfast",
         cone="elliptic",
@@ -115,7 +123,8 @@ def _model(robot: RobotDescription) -> tuple[Element, Element]:
     return root, _add(world, "body", name="trunk")
 
 
-def _leg(trunk: Element, leg: Leg, robot: RobotDescription, *, tree: bool) -> None:
+def _leg(trunk: Element, leg: Leg, robot: RobotDescription, foot: Geom | None = None) -> None:
+    """A leg, for other users if its foot touches, else for our own plant."""
     at = trunk
     for link, box in zip(links_of(leg), (leg.hip, leg.femur, leg.tibia), strict=True):
         turn = (cos(link.pitch / 2.0), 0.0, sin(link.pitch / 2.0), 0.0)
@@ -123,23 +132,43 @@ def _leg(trunk: Element, leg: Leg, robot: RobotDescription, *, tree: bool) -> No
             at, "body", name=f"{leg.name}_{link.name}",
             pos=_numbers(link.place), quat=_numbers(turn),
         )  # fmt: skip
-        _add(
+        joint = _add(
             at, "joint", name=f"{leg.name}_{link.joint}",
-            axis=_numbers(map(abs, link.axis) if tree else link.axis),
+            axis=_numbers(link.axis if foot else map(abs, link.axis)),
             armature=repr(robot.servo.reflected_inertia),
         )  # fmt: skip
         _inertial(at, link.body)
-        if not tree:
-            _box(at, leg.outward(box.com), box.size)
-    foot = {"pos": _numbers((0.0, 0.0, -leg.tibia_length)), "type": "sphere"}
-    radius = robot.contact.foot_radius
-    _add(at, "geom", foot, name=foot_of(leg), size=repr(radius), rgba=_RUBBER, **_UNTOUCHED)
+        if foot:
+            joint.set("range", _numbers(JOINT_RANGE))
+            joint.set("actuatorfrcrange", _numbers(_within(robot.servo.stall_torque)))
+            # the edges of a tibia's box would touch beside the ball
+            touch = _UNTOUCHED if box is leg.tibia else _TOUCHING
+            _box(at, leg.outward(box.com), box.size, touch)
+    ball = {"pos": _numbers((0.0, 0.0, -leg.tibia_length)), "type": "sphere"}
+    radius = repr(robot.contact.foot_radius)
+    touch = {**_TOUCHING, "priority": "1", **_contact(robot, *foot)} if foot else _UNTOUCHED
+    _add(at, "geom", ball, name=foot_of(leg), size=radius, rgba=_RUBBER, **touch)
     # the load sensor sums the contacts inside its site: a little more than the ball itself
-    _add(at, "site", foot, name=foot_of(leg), size=repr(1.5 * radius), rgba="0 0 0 0")
+    size = repr(1.5 * robot.contact.foot_radius)
+    _add(at, "site", ball, name=foot_of(leg), size=size, rgba="0 0 0 0")
 
 
 _UNTOUCHED: Final[Any] = {"contype": "0", "conaffinity": "0", "mass": "0"}
-"""Of every geom: feet touch the ground, as pairs, and nothing else touches anything."""
+_TOUCHING: Final[Any] = {"contype": "2", "conaffinity": "1", "mass": "0"}
+"""Of a geom of the robot: it touches what others have in their scenes, 1 and 1 by default, and no
+other geom of the robot."""
+
+
+def _contact(
+    robot: RobotDescription, impedance: float, normal: tuple[float, float]
+) -> dict[str, str]:
+    """Attributes of a contact of a foot."""
+    return {
+        "condim": "3",
+        "friction": _numbers((robot.contact.friction, 0.0, 0.0)),
+        "solimp": _numbers((impedance, impedance, 0.001, 0.5, 2.0)),
+        "solref": _numbers(-value for value in normal),
+    }
 
 
 def _inertial(body: Element, properties: MassProperties) -> None:
@@ -155,28 +184,28 @@ def _inertial(body: Element, properties: MassProperties) -> None:
     _add(body, "inertial", turn, pos=place, mass=mass, diaginertia=diagonal)
 
 
-def _box(body: Element, center: Sequence[float], size: Sequence[float]) -> None:
+def _box(body: Element, center: Sequence[float], size: Sequence[float], touch: Any) -> None:
     half = _numbers(edge / 2.0 for edge in size)
-    _add(body, "geom", type="box", pos=_numbers(center), size=half, rgba=_PLASTIC, **_UNTOUCHED)
+    _add(body, "geom", type="box", pos=_numbers(center), size=half, rgba=_PLASTIC, **touch)
 
 
-def _ground(root: Element, robot: RobotDescription, pairs: Sequence[Pair]) -> None:
+def _ground(root: Element, robot: RobotDescription, admittances: Sequence[float]) -> None:
+    """A level ground, and the pairs of the feet with it."""
     world = root.find("worldbody")
     assert world is not None
+    mu = robot.contact.friction
     _add(
         world, "geom", name="ground", type="plane", size="5 5 0.1", rgba="0.9 0.9 0.9 1",
-        **_UNTOUCHED,
+        friction=_numbers((mu, 0.0, 0.0)), mass="0",
     )  # fmt: skip
     contact = _add(root, "contact")
-    for leg, pair in zip(robot.legs, pairs, strict=True):
-        d, mu = pair.impedance, robot.contact.friction
-        _add(
-            contact, "pair", geom1="ground", geom2=foot_of(leg), condim="3",
-            friction=_numbers((mu, mu, 0.0, 0.0, 0.0)),
-            solimp=_numbers((d, d, 0.001, 0.5, 2.0)),
-            solref=_numbers(-value for value in pair.normal),
-            solreffriction=_numbers(-value for value in pair.along),
-        )  # fmt: skip
+    for leg, admittance in zip(robot.legs, admittances, strict=True):
+        pair = pair_of(robot, admittance)
+        attributes = _contact(robot, pair.impedance, pair.normal) | {
+            "friction": _numbers((mu, mu, 0.0, 0.0, 0.0)),
+            "solreffriction": _numbers(-value for value in pair.along),
+        }
+        _add(contact, "pair", attributes, geom1="ground", geom2=foot_of(leg))
 
 
 def _actuators(root: Element, robot: RobotDescription, servo: str) -> None:
@@ -194,7 +223,7 @@ def _actuators(root: Element, robot: RobotDescription, servo: str) -> None:
         gains = {
             "kp": repr(motors.stiffness),
             "kv": repr(motors.damping),
-            "forcerange": _numbers((-stall, stall)),
+            "forcerange": _numbers(_within(stall)),
         }
         _add(_add(root, "custom"), "numeric", name="no_load_speed", data=repr(speed))
     for joint in joints_of(robot):
@@ -217,6 +246,10 @@ def _sensors(root: Element, robot: RobotDescription) -> None:
         _add(of, kind, name=name, objtype="xbody", objname="trunk")
     _add(of, "gyro", name="gyro", site="imu")
     _add(of, "accelerometer", name="accelerometer", site="imu")
+
+
+def _within(limit: float) -> tuple[float, float]:
+    return -limit, limit
 
 
 def _numbers(values: Iterable[float]) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from apnc_plant.channels import PlantError
 from apnc_plant.legged import Engine, Setup
 from apnc_plant.robot.model import Array, RobotDescription
-from mujoco_models.contact import pair_of
+from apnc_plant.robot.names import plainly_named
 from mujoco_models.engine import mj
 from mujoco_models.mjcf import foot_of, robot_mjcf, tree_mjcf
 
@@ -20,15 +20,17 @@ WILD: Final = 1e4
 def export_mjcf(robot: RobotDescription, *, servo: str = "position") -> str:
     """A robot as MJCF for other users, see ``mjcf.robot_mjcf``; MuJoCo has loaded it.
 
+    Its names become plain ones, see ``apnc_plant.robot.names``.
+
     Raises:
         ValueError: an unknown servo.
     """
+    robot = plainly_named(robot)
     # the admittance of the feet, which their contact depends on, is known once it is compiled
-    rough_pairs = [pair_of(robot, 1.0)] * len(robot.legs)
-    rough = _model(robot_mjcf(robot, rough_pairs, servo=servo))
+    rough = _model(robot_mjcf(robot, [1.0] * len(robot.legs), servo=servo))
     bodies = [rough.geom_bodyid[rough.geom(foot_of(leg)).id] for leg in robot.legs]
-    pairs = [pair_of(robot, float(rough.body_invweight0[body, 0])) for body in bodies]
-    text = robot_mjcf(robot, pairs, servo=servo)
+    admittances = [float(rough.body_invweight0[body, 0]) for body in bodies]
+    text = robot_mjcf(robot, admittances, servo=servo)
     _model(text)
     return text
 

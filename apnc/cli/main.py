@@ -1,4 +1,4 @@
-"""``apnc``: runs a command; a mistake is one line, and Ctrl-C is no traceback."""
+"""``apnc``: runs a command; a mistake is one line, and Ctrl-C or SIGTERM no traceback."""
 # ruff: noqa: PLC0415  # not even while the command line is imported
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
-from apnc.cli.interrupt import INTERRUPTED, NOTHING, STOP, Interrupted
+from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 
 if TYPE_CHECKING:
     import typer
@@ -37,7 +37,7 @@ def main(
         load: gives its commands.
 
     Exit codes: 0 done; 1 a robot that fell, a motion that diverged, a trial that failed; 2 a
-    mistake of the caller, one line on stderr; 130 interrupted.
+    mistake of the caller, one line on stderr; 130 interrupted, 143 terminated.
     """
     codecs.register_error("as_shown", _as_shown)
     for stream in (sys.stdout, sys.stderr):
@@ -48,7 +48,7 @@ def main(
             code = _run(sys.argv[1:] if arguments is None else arguments, program, load)
         except Interrupted as request:
             sys.stderr.write(f"{request}\n")
-            code = INTERRUPTED
+            code = STOP.code
     sys.exit(code)
 
 

@@ -19,6 +19,9 @@ from apnc.studies.study import Trial
 CHUNK: Final = 32
 """Trials of the robot in C that a task on a cluster walks: some batches, done in a second."""
 
+_TO_STOP: Final = (signal.SIGINT, signal.SIGTERM)
+"""Signals on which this process ends the work, and not its workers, whom they reach as well."""
+
 Stop = Callable[[], bool]
 
 
@@ -57,7 +60,7 @@ def _processes(workers: int, engines: Sequence[str]) -> Any:
         raise ValueError(f"{needs}: {extra}") from None
     executor = get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
     with _interrupts_ignored():
-        executor.submit(int)  # starts the processes, which ignore Ctrl-C from then on
+        executor.submit(int)  # starts the processes, which leave stopping to this one from then on
     return executor
 
 
@@ -75,19 +78,21 @@ def _client(address: str) -> Any:
 
 @contextmanager
 def _interrupts_ignored() -> Iterator[None]:
-    """Ctrl-C has no effect in here, nor, until they say otherwise, in processes started here."""
+    """No signal to stop has effect in here, nor, until they say otherwise, in processes started."""
     if threading.current_thread() is not threading.main_thread():  # others may not set signals
         yield
         return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    before = {number: signal.signal(number, signal.SIG_IGN) for number in _TO_STOP}
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _leave_interrupts_to_parent() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for number in _TO_STOP:
+        signal.signal(number, signal.SIG_IGN)
 
 
 def rows_of(

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from math import pi
+from typing import Final, NamedTuple
 
 from apnc_plant.robot.model import Leg, MassProperties, Vector3
+
+JOINT_RANGE: Final = (-pi, pi)
+"""Range of every joint [rad] where a format wants one: a full turn, the model has no stops."""
 
 
 class Link(NamedTuple):

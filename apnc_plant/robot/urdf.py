@@ -6,55 +6,82 @@ from collections.abc import Iterable
 from typing import Final
 from xml.etree import ElementTree
 
-from apnc_plant.robot.links import links_of
+import numpy as np
+
+from apnc_plant.robot.links import JOINT_RANGE, links_of
 from apnc_plant.robot.model import Body, Leg, MassProperties, RobotDescription
+from apnc_plant.robot.names import plainly_named
+
+ROOTS: Final = ("trunk", "base")
+"""Links that may carry all others, see :func:`robot_urdf`."""
 
 Element = ElementTree.Element
 _add = ElementTree.SubElement
 
 _INERTIA: Final = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_NOTHING: Final = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
 
 
-def robot_urdf(robot: RobotDescription) -> str:
+def robot_urdf(robot: RobotDescription, *, root: str = "trunk") -> str:
     """A robot as URDF, its joints with our signs and reference pose.
 
-    ``trunk`` is the root. Each foot is a ball of the tibia, and a frame of its own at its centre.
-    Joints are ``continuous``: our model has no stops. ``effort`` is the stall torque, ``velocity``
-    the no-load speed; URDF knows neither the line between them nor a rotor inertia nor a contact
-    stiffness: stiffness, damping and rotor inertia stand in a comment.
+    Joints are ``revolute`` with ``JOINT_RANGE``. ``effort`` is the stall torque, ``velocity`` the
+    no-load speed; URDF knows neither the line between them nor a rotor inertia nor a contact
+    stiffness: stiffness, damping and rotor inertia stand in a comment. Trunk, hip and femur links
+    touch as their boxes, each foot as a ball of its tibia. A frame of its own at the ball's centre
+    carries an inertial of zero mass, since some loaders count a link without inertial as 1 kg.
+
+    Args:
+        robot: the robot; its names become plain ones, see ``plain_name``.
+        root: ``trunk``; or ``base``, a link without mass to which ``floating_base`` fixes the
+            trunk, as ROS has it: KDL leaves the inertia of a root out.
+
+    Raises:
+        ValueError: an unknown root.
+
+    Pitfall: PyBullet makes a ``base`` without inertial 1 kg heavy, and holds one of zero mass in
+    the air.
     """
-    root, servo = Element("robot", name=robot.name), robot.servo
-    root.append(
+    if root not in ROOTS:
+        raise ValueError(f"root '{root}' is not one of {', '.join(ROOTS)}")
+    robot = plainly_named(robot)
+    model, servo = Element("robot", name=robot.name), robot.servo
+    model.append(
         ElementTree.Comment(
             f" servo: stiffness {servo.stiffness!r} N m/rad, damping {servo.damping!r} N m s/rad, "
             f"reflected rotor inertia {servo.reflected_inertia!r} kg m^2 "
         )
     )
+    if root != "trunk":
+        _add(model, "link", name=root)
+        _joint(model, "floating_base", "fixed", root, "trunk")
     trunk = robot.trunk
-    _box(_link(root, "trunk", trunk.loaded(0.0, 0.0)), trunk.center, trunk.body)
+    _box(_link(model, "trunk", trunk.loaded(0.0, 0.0)), trunk.center, trunk.body, _TOUCHING)
     for leg in robot.legs:
-        _leg(root, leg, robot)
-    ElementTree.indent(root)
-    return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
+        _leg(model, leg, robot)
+    ElementTree.indent(model)
+    return ElementTree.tostring(model, encoding="unicode", xml_declaration=True) + "\n"
 
 
 def _leg(root: Element, leg: Leg, robot: RobotDescription) -> None:
     parent, servo = "trunk", robot.servo
+    limits = dict(zip(("lower", "upper"), map(repr, JOINT_RANGE), strict=True))
+    limits |= {"effort": repr(servo.stall_torque), "velocity": repr(servo.no_load_speed)}
     for link, box in zip(links_of(leg), (leg.hip, leg.femur, leg.tibia), strict=True):
         name = f"{leg.name}_{link.name}"
         element = _link(root, name, link.body)
-        _box(element, leg.outward(box.com), box)
-        joint = _joint(root, f"{leg.name}_{link.joint}", "continuous", parent, name)
+        _box(element, leg.outward(box.com), box, _SEEN if box is leg.tibia else _TOUCHING)
+        joint = _joint(root, f"{leg.name}_{link.joint}", "revolute", parent, name)
         _add(joint, "origin", xyz=_numbers(link.place), rpy=_numbers((0.0, link.pitch, 0.0)))
         _add(joint, "axis", xyz=_numbers(link.axis))
-        _add(joint, "limit", effort=repr(servo.stall_torque), velocity=repr(servo.no_load_speed))
+        _add(joint, "limit", limits)
         parent = name
     foot = (0.0, 0.0, -leg.tibia_length)
-    for kind in ("visual", "collision"):
+    for kind in _TOUCHING:
         shape = _add(element, kind)
         _add(shape, "origin", xyz=_numbers(foot))
         _add(_add(shape, "geometry"), "sphere", radius=repr(robot.contact.foot_radius))
-    _add(root, "link", name=f"{leg.name}_foot")
+    _link(root, f"{leg.name}_foot", _NOTHING)
     fixed = _joint(root, f"{leg.name}_foot_joint", "fixed", parent, f"{leg.name}_foot")
     _add(fixed, "origin", xyz=_numbers(foot))
 
@@ -77,10 +104,16 @@ def _link(root: Element, name: str, body: MassProperties) -> Element:
     return link
 
 
-def _box(link: Element, center: Iterable[float], body: Body) -> None:
-    shape = _add(link, "visual")
-    _add(shape, "origin", xyz=_numbers(center))
-    _add(_add(shape, "geometry"), "box", size=_numbers(body.size))
+_SEEN: Final = ("visual",)
+_TOUCHING: Final = ("visual", "collision")
+"""How a shape shows. The box of a tibia is seen only: its edges would touch beside the ball."""
+
+
+def _box(link: Element, center: Iterable[float], body: Body, kinds: Iterable[str]) -> None:
+    for kind in kinds:
+        shape = _add(link, kind)
+        _add(shape, "origin", xyz=_numbers(center))
+        _add(_add(shape, "geometry"), "box", size=_numbers(body.size))
 
 
 def _numbers(values: Iterable[float]) -> str:

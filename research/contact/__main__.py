@@ -2,4 +2,5 @@
 
 from research.command import main
 
-main("contact")
+if __name__ == "__main__":
+    main("contact")

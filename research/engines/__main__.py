@@ -2,4 +2,5 @@
 
 from research.command import main
 
-main("engines")
+if __name__ == "__main__":
+    main("engines")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -105,6 +106,61 @@ def test_it_stands_on_its_feet_and_its_sensors_show_its_weight(robot: RobotDescr
         depth = robot.contact.foot_radius - data.geom(f"{leg.name}_foot").xpos[2]
         sunk = max(0.0, depth)  # not every leg of the odd robot reaches the ground
         assert sunk == pytest.approx(load / robot.contact.stiffness, rel=0.01, abs=1e-7)
+
+
+def stood(text: str, robot: RobotDescription) -> tuple[Any, Any, np.ndarray]:
+    """Model and data after two seconds from ``stand``, and the loads on the feet [N]."""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("stand").id)
+    while data.time < 2.0:
+        mujoco.mj_step(model, data)
+    loads = [data.sensor(f"{leg.name}_grf").data[0] for leg in robot.legs]
+    return model, data, np.array(loads)
+
+
+def test_stand_is_the_reference_pose_with_a_foot_on_the_ground(robot: RobotDescription) -> None:
+    model = loaded(robot)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("stand").id)
+    np.testing.assert_array_equal(data.qpos[7:], 0.0)
+    np.testing.assert_array_equal(data.ctrl, 0.0)
+    mujoco.mj_kinematics(model, data)
+    lowest = min(data.geom(f"{leg.name}_foot").xpos[2] for leg in robot.legs)
+    assert lowest == pytest.approx(robot.contact.foot_radius, abs=1e-9)
+
+
+def test_it_stands_on_what_is_in_the_scene_as_on_the_ground(robot: RobotDescription) -> None:
+    root, height = ElementTree.fromstring(export_mjcf(robot)), 0.02
+    slab = {"type": "box", "size": f"1 1 {height / 2.0}", "pos": f"0 0 {height / 2.0}"}
+    ElementTree.SubElement(root.find("worldbody"), "geom", slab, name="slab")
+    key = root.find("keyframe/key")
+    place = key.get("qpos").split()
+    key.set("qpos", " ".join([*place[:2], str(float(place[2]) + height), *place[3:]]))
+    model, data, loads = stood(ElementTree.tostring(root, encoding="unicode"), robot)
+    assert loads.sum() == pytest.approx(robot.weight, rel=1e-3)
+    assert all(model.geom("slab").id in contact.geom for contact in data.contact)
+    for leg, load in zip(robot.legs, loads, strict=True):
+        depth = robot.contact.foot_radius + height - data.geom(f"{leg.name}_foot").xpos[2]
+        sunk = max(0.0, depth)
+        assert sunk == pytest.approx(load / robot.contact.stiffness, rel=0.01, abs=1e-7)
+
+
+def test_no_part_of_it_touches_another(robot: RobotDescription) -> None:
+    model = loaded(robot)
+    data, random = mujoco.MjData(model), np.random.default_rng(0)
+    for _ in range(50):
+        data.qpos[:3] = 0.0, 0.0, 2.0
+        data.qpos[7:] = random.uniform(-np.pi, np.pi, model.nu)
+        mujoco.mj_forward(model, data)
+        assert data.ncon == 0
+
+
+def test_limits_are_those_of_the_servo_and_a_full_turn(robot: RobotDescription) -> None:
+    model, stall = loaded(robot), robot.servo.stall_torque
+    np.testing.assert_array_equal(model.jnt_limited[1:], 1)
+    np.testing.assert_array_equal(model.jnt_range[1:], [[-np.pi, np.pi]] * model.nu)
+    np.testing.assert_array_equal(model.jnt_actfrcrange[1:], [[-stall, stall]] * model.nu)
 
 
 def test_an_unknown_servo_is_named() -> None:

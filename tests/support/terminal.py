@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pty
+import re
 import select
 import signal
 import subprocess
@@ -30,11 +31,15 @@ def apnc(
 
 
 def interrupted(
-    *command: str, at: str, cwd: Path, env: dict[str, str] | None = None
+    *command: str,
+    at: str,
+    cwd: Path,
+    env: dict[str, str] | None = None,
+    by: signal.Signals = signal.SIGINT,
 ) -> tuple[int, str]:
-    """Exit code and standard error of a command that gets Ctrl-C once ``at`` stands there.
+    """Exit code and standard error of a command that gets a signal once ``at`` stands there.
 
-    As from a keyboard, its child processes get it too.
+    As Ctrl-C from a keyboard, its child processes get it too. ``at`` is a regular expression.
     """
     terminal, theirs = pty.openpty()
     process = subprocess.Popen(
@@ -53,9 +58,9 @@ def interrupted(
             shown += os.read(terminal, 65536).decode(errors="replace") if ready else ""
         except OSError:  # the process has closed it
             break
-        if not sent and at in shown:
+        if not sent and re.search(at, shown):
             sent = True
-            os.killpg(process.pid, signal.SIGINT)
+            os.killpg(process.pid, by)
         if not ready and process.poll() is not None:
             break
     else:

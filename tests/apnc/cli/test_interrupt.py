@@ -1,9 +1,11 @@
-"""Ctrl-C: at once while there is nothing to lose, at the next tick while there is."""
+"""Ctrl-C and SIGTERM: at once while there is nothing to lose, at the next tick while there is."""
 
 from __future__ import annotations
 
+import csv
 import json
 import os
+import re
 import signal
 import sys
 from pathlib import Path
@@ -17,12 +19,17 @@ if os.name == "nt":
 
 from terminal import APNC, interrupted
 
+CODES = {signal.SIGINT: 130, signal.SIGTERM: 143}
 
-def test_ctrl_c_in_an_endless_walk_keeps_what_was_recorded(tmp_path: Path) -> None:
+
+@pytest.mark.parametrize("by", CODES, ids=lambda by: by.name)
+def test_a_signal_in_an_endless_walk_keeps_what_was_recorded(
+    by: signal.Signals, tmp_path: Path
+) -> None:
     code, shown = interrupted(
-        *APNC, "walk", "--duration", "1e9", at="x real time", cwd=tmp_path
-    )  # fmt: skip
-    assert code == 130, shown
+        *APNC, "walk", "--duration", "1e9", at="x real time", cwd=tmp_path, by=by
+    )
+    assert code == CODES[by], shown
     assert "Traceback" not in shown
     assert "what was recorded is in apnc-walk" in shown
     summary = json.loads((tmp_path / "apnc-walk" / "summary.json").read_text())
@@ -34,7 +41,7 @@ def test_ctrl_c_in_an_endless_walk_keeps_what_was_recorded(tmp_path: Path) -> No
 @pytest.mark.parametrize("at", ["apnc.cli.console", "numpy", "fmpy", "apnc_plant.ground"])
 def test_ctrl_c_during_the_imports_is_no_traceback(at: str, tmp_path: Path) -> None:
     command = (sys.executable, "-X", "importtime", "-m", "apnc", "walk", "--duration", "9")
-    code, shown = interrupted(*command, at=f" {at}\r\n", cwd=tmp_path)
+    code, shown = interrupted(*command, at=f" {re.escape(at)}\r\n", cwd=tmp_path)
     said = [line for line in shown.splitlines() if not line.startswith("import time:")]
     assert code == 130, said
     assert "interrupted, nothing recorded" in shown
@@ -65,6 +72,39 @@ def test_ctrl_c_in_a_study_also_reaches_workers_and_is_no_traceback(
     rows = store.read_text().splitlines() if store.exists() else []
     assert len(rows) < 4
     assert all(json.loads(row)["error"] == "" for row in rows)
+
+
+IN_C_MANY = (*IN_C[:-1], "5", "--mi", "0.08", "--workers", "1", "--trials", "4000")
+IN_PROCESSES_MANY = (*IN_PROCESSES, "--mi", "0.08", "--workers", "2", "--trials", "400")
+
+
+@pytest.mark.parametrize("study", [IN_C_MANY, IN_PROCESSES_MANY], ids=["threads", "processes"])
+def test_a_terminated_study_has_written_what_had_ended(
+    study: tuple[str, ...], tmp_path: Path
+) -> None:
+    some = r"[1-9][0-9]* of 4000? trials"
+    code, shown = interrupted(*APNC, "study", *study, at=some, cwd=tmp_path, by=signal.SIGTERM)
+    assert code == 143 and "interrupted; --resume finishes it" in shown, shown
+    assert "Traceback" not in shown
+    folder = tmp_path / f"apnc-study-{study[0]}"
+    rows = [json.loads(line) for line in (folder / "trials.jsonl").read_text().splitlines()]
+    assert 0 < len(rows) < 4000 and {row["error"] for row in rows} == {""}
+    with (folder / "trials.csv").open(newline="", encoding="utf-8") as file:
+        assert {row["key"] for row in csv.DictReader(file)} == {row["key"] for row in rows}
+    assert (folder / "report.html").is_file()
+
+
+def test_a_second_sigterm_changes_nothing_and_the_first_signal_has_the_code() -> None:
+    stop = StopRequest()
+    with stop.listening():
+        assert not stop()
+        for _ in range(3):
+            signal.raise_signal(signal.SIGTERM)
+        assert (stop(), stop.code) == (True, 143)
+        with pytest.raises(Interrupted):
+            signal.raise_signal(signal.SIGINT)
+        assert stop.code == 143
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
 
 
 def test_before_a_loop_asks_ctrl_c_raises_afterwards_the_second_does() -> None:

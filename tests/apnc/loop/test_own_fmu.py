@@ -15,6 +15,7 @@ import typer
 from apnc import Experiment, Record, load_robot, simulate, simulate_many, write_report
 from apnc.cli.app import app
 from apnc.cli.walk import experiment_of
+from apnc.report.wording import facts
 from apnc_core.enumerations import Method
 from build_fmu.build import cached_fmu
 from build_fmu.options import BuildOptions, host_platform
@@ -81,6 +82,15 @@ def test_it_walks_with_them_in_every_loop_and_they_are_read_back(own: str, tmp_p
         write_report(record, tmp_path)
         shown = json.loads((tmp_path / "summary.json").read_text())["parameters"]
         assert {name: shown[name] for name in OWN} == OWN | {"phi_stored": list(GAIT)}
+
+
+def test_the_report_tells_which_of_its_values_held(own: str) -> None:
+    record = simulate(Experiment(fmu=own, duration=0.1, settings={"a1": 0.2}))
+    told = dict(facts(record))
+    assert told["FMU"] == own and told["Memory"] == "starts with φ 3.1 3.2 0.1 rad"
+    assert "robot_weight 60" in told["Start values of the FMU"]
+    assert "a1" not in told["Start values of the FMU"]
+    assert "FMU" not in dict(facts(simulate(Experiment(duration=0.1))))
 
 
 def test_what_is_read_back_is_what_an_experiment_set() -> None:

@@ -136,6 +136,19 @@ def test_cost_of_transport() -> None:
     assert s.cost_of_transport == pytest.approx(66.0 / (MASS * 9.81 * 0.1))
 
 
+def test_cost_of_transport_is_over_the_path_not_the_way_ahead() -> None:
+    walk = synthetic_record(20.0)
+    power = np.full((4, 3), 0.5)
+    work = walk.time[:, None, None] * power
+    angle = 2.0 * PI * walk.time / walk.time[-1]  # once round a circle of 0.4 m, back to its start
+    forward, left = 0.4 * np.sin(angle), 0.4 * (1.0 - np.cos(angle))
+    round_trip = moving_on(walk, forward, left, metrics.wrap(angle))
+    s = summarise(with_channels(round_trip, joint_work=work))
+    assert s.distance_m == pytest.approx(0.0, abs=1e-9)
+    spent, path = power.sum() * walk.time[-1], 2.0 * PI * 0.4
+    assert s.cost_of_transport == pytest.approx(spent / (MASS * 9.81 * path), rel=0.03)
+
+
 def test_late_figures_are_of_the_last_ten_seconds() -> None:
     walk = synthetic_record(30.0, speed=0.1, formation=(2.0, 5.0))
     late = np.maximum(walk.time - walk.time[-1] + 10.0, 0.0)

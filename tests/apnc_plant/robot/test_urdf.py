@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import io
+import math
+from dataclasses import replace
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -27,8 +30,10 @@ def test_links_have_our_masses_centres_and_inertias(robot: RobotDescription) -> 
     expected = {"trunk": robot.trunk.loaded(0.0, 0.0)} | {
         f"{leg.name}_{link.name}": link.body for leg in robot.legs for link in links_of(leg)
     }
-    heavy = {name: link.inertial for name, link in model.link_map.items() if link.inertial}
+    found = {name: link.inertial for name, link in model.link_map.items()}
+    heavy = {name: inertial for name, inertial in found.items() if inertial.mass}
     assert set(heavy) == set(expected)
+    assert set(found) - set(heavy) == {f"{leg.name}_foot" for leg in robot.legs}
     for name, found in heavy.items():
         assert found.mass == pytest.approx(expected[name].mass, abs=1e-12)
         np.testing.assert_allclose(found.origin[:3, 3], expected[name].com, atol=1e-12)
@@ -60,6 +65,8 @@ def test_a_servo_is_the_limits_of_its_joint(robot: RobotDescription) -> None:
     moving = [joint for joint in model.joint_map.values() if joint.type != "fixed"]
     assert len(moving) == 3 * len(robot.legs)
     for joint in moving:
+        assert joint.type == "revolute"
+        assert (joint.limit.lower, joint.limit.upper) == (-math.pi, math.pi)
         assert joint.limit.effort == robot.servo.stall_torque
         assert joint.limit.velocity == robot.servo.no_load_speed
 
@@ -71,3 +78,54 @@ def test_mujoco_reads_it_too(robot: RobotDescription) -> None:
     model = spec.compile()
     assert model.body_mass.sum() == pytest.approx(robot.mass, abs=1e-9)
     assert model.njnt == 3 * len(robot.legs)
+
+
+def test_what_touches_are_boxes_of_trunk_and_upper_links_and_balls(
+    robot: RobotDescription,
+) -> None:
+    links = ElementTree.fromstring(robot_urdf(robot)).findall("link")
+    touching = {
+        link.get("name"): [shape.find("geometry")[0].attrib for shape in link.findall("collision")]
+        for link in links
+    }
+    expected: dict[str, list[dict[str, str]]] = {
+        "trunk": [{"size": " ".join(map(str, robot.trunk.body.size))}]
+    }
+    ball = {"radius": str(robot.contact.foot_radius)}
+    for leg in robot.legs:
+        for name, link in (("hip", leg.hip), ("femur", leg.femur)):
+            expected[f"{leg.name}_{name}_link"] = [{"size": " ".join(map(str, link.size))}]
+        expected |= {f"{leg.name}_tibia_link": [ball], f"{leg.name}_foot": []}
+    assert touching == expected
+
+
+def test_a_base_without_mass_carries_the_trunk(robot: RobotDescription) -> None:
+    plain, based = (
+        ElementTree.fromstring(robot_urdf(robot, root=root)) for root in ("trunk", "base")
+    )
+    base, joint = based.find("link[@name='base']"), based.find("joint[@name='floating_base']")
+    assert len(base) == 0
+    assert joint.get("type") == "fixed"
+    assert (joint.find("parent").get("link"), joint.find("child").get("link")) == ("base", "trunk")
+    based.remove(base)
+    based.remove(joint)
+    assert [ElementTree.tostring(part).split() for part in based] == [
+        ElementTree.tostring(part).split() for part in plain
+    ]
+
+
+def test_an_unknown_root_is_named() -> None:
+    with pytest.raises(ValueError, match="root 'cow' is not one of trunk, base"):
+        robot_urdf(ROBOTS[0], root="cow")
+
+
+def test_names_are_plain_and_differ() -> None:
+    names = ("a b", "a,b", "../c", "1")
+    legs = (replace(leg, name=name) for leg, name in zip(ROBOTS[0].legs, names, strict=True))
+    text = robot_urdf(replace(ROBOTS[0], name="sub/../../x", legs=tuple(legs)))
+    robot = ElementTree.fromstring(text)
+    assert robot.get("name") == "sub_______x"
+    hips = [name for joint in robot.iter("joint") if (name := joint.get("name")).endswith("_hip")]
+    assert hips == ["a_b_hip", "a_b__hip", "___c_hip", "_1_hip"]
+    links = [link.get("name") for link in robot.iter("link")]
+    assert len(set(links)) == len(links) == 17
