@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 from pathlib import Path
 from typing import Annotated, Final
 
 from typer import Option
 
-from apnc.cli.console import File, Text, say, writable
+from apnc.cli.console import Text, apart, given, say, writable
 
 FORMATS: Final = ("mjcf", "urdf")
 
@@ -17,28 +18,43 @@ FORMATS: Final = ("mjcf", "urdf")
 def export_robot(
     form: Annotated[str, Option("--format", help="mjcf, urdf.")] = "mjcf",
     robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
-    output: Annotated[File, Option(help="File to write; ROBOT.xml, ROBOT.urdf.")] = None,
+    output: Annotated[
+        Text, Option(metavar="<path>", help="File, or folder/ for ROBOT.xml, ROBOT.urdf.")
+    ] = None,
     servo: Annotated[Text, Option(help="Of MJCF: position, dcmotor; position if omitted.")] = None,
+    root: Annotated[
+        Text, Option(help="Of URDF: trunk; or base, without mass, for KDL; trunk if omitted.")
+    ] = None,
 ) -> None:
     """Write a robot as MJCF (MuJoCo) or URDF (ROS): masses, joints, servos, feet, sensors."""
     from apnc_plant.robot import load_robot
+    from apnc_plant.robot.names import plain_name
 
     if form not in FORMATS:
         raise ValueError(f"format '{form}' is not one of {', '.join(FORMATS)}")
     if form == "urdf" and servo is not None:
         raise ValueError(f"servo '{servo}' is of MJCF; URDF has limits of a joint only")
+    if form == "mjcf" and root is not None:
+        raise ValueError(f"root '{root}' is of URDF; the trunk of MJCF has a free joint")
+    apart({"--output": None if output is None else Path(output)}, given(robot=robot))
     own = load_robot(robot)
     if form == "urdf":
         from apnc_plant.robot.urdf import robot_urdf
 
-        text, suffix = robot_urdf(own), "urdf"
+        text, suffix = robot_urdf(own, root="trunk" if root is None else root), "urdf"
     else:
         from apnc.loop.engines import needs
         from mujoco_models.tree import export_mjcf
 
         if importlib.util.find_spec("mujoco") is None:
             raise ValueError(needs("mujoco"))
-        text, suffix = export_mjcf(own, servo=servo or "position"), "xml"
-    path = writable(output or Path(f"{own.name}.{suffix}"), file=True)
-    path.write_text(text, encoding="utf-8")
+        text, suffix = export_mjcf(own, servo="position" if servo is None else servo), "xml"
+    path = _file("./" if output is None else output, f"{plain_name(own.name)}.{suffix}")
+    writable(path, file=True).write_text(text, encoding="utf-8")
     say(f"{path}: {own.name}, {len(own.legs)} legs, {own.mass:.3g} kg, {form.upper()}")
+
+
+def _file(output: str, name: str) -> Path:
+    """The file that is meant by ``output``: itself, or in a folder one of this name."""
+    folder = output.endswith(("/", os.sep)) or Path(output).is_dir()
+    return Path(output, name) if folder else Path(output)

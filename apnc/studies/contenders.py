@@ -62,7 +62,7 @@ CONTENDERS: Final[Mapping[str, Contender]] = {
         _authors_gain(0.03), _IN_CONDITIONS | _VARIED,
     ),
     "tegotae_best": Contender(
-        "tegotae", "Tegotae (best)", theme.VERMILLION, "diamond", {"gamma_tegotae": 0.15},
+        "tegotae", "Tegotae (best)", theme.VERMILLION, "diamond", {"gamma_tegotae": 0.2},
     ),
     "phase_reset": Contender(
         "phase_reset", "phase resetting", theme.GREEN, "triangle-up-open",

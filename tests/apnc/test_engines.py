@@ -61,11 +61,29 @@ def test_a_robot_is_exported(
     assert f"{path}: hexapod, 6 legs" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("made", [False, True])
+@pytest.mark.parametrize("root", ["trunk", "base"])
+def test_a_robot_is_exported_into_a_folder(
+    root: str, made: bool, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    folder = tmp_path / "new"
+    if made:
+        folder.mkdir()
+    output = str(folder) if made else f"{folder}/"
+    with pytest.raises(SystemExit) as end:
+        main(["export-robot", "--format", "urdf", "--root", root, "--output", output])
+    assert end.value.code == 0
+    assert "floating_base" in (folder / "lilibot.urdf").read_text() or root == "trunk"
+    assert f"{folder / 'lilibot.urdf'}: lilibot, 4 legs" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
         (["--format", "sdf"], "format 'sdf' is not one of mjcf, urdf"),
         (["--format", "urdf", "--servo", "dcmotor"], "servo 'dcmotor' is of MJCF"),
+        (["--format", "urdf", "--root", "cow"], "root 'cow' is not one of trunk, base"),
+        (["--root", "base"], "root 'base' is of URDF"),
         (["--robot", "cow"], "robot 'cow' is unknown"),
     ],
 )
