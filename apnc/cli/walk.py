@@ -100,19 +100,19 @@ def walk(
         record = apnc.simulate(experiment, progress=progress, stop=STOP)
     if len(record) == 0:
         raise Interrupted(NOTHING)
-    from apnc.report.folder import write_together
+    from apnc.report.folder import summary_text, write_together
     from apnc.report.wording import rows
 
-    apnc.write_report(record, output)
+    summary = apnc.write_report(record, output)
     if json_path:
-        text = (output / "summary.json").read_bytes()
+        text = summary_text(record, summary).encode()
         write_together(json_path.parent, {json_path.name: lambda path: path.write_bytes(text)})
     if mcap_path:
         from apnc.report.mcap_file import write_mcap
 
         log = {mcap_path.name: lambda path: write_mcap(record, path)}
         write_together(mcap_path.parent, log)
-    show_table(rows(apnc.summarise(record)))
+    show_table(rows(summary))
     say(f"report: {output}/report.html")
     why = f": {record.message}" if record.message else ""
     words = f"{record.end} at {record.ended_at:.2f} s{why}; what was recorded is in {output}"

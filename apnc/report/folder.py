@@ -101,9 +101,7 @@ def write_run(record: Record, folder: Path | str) -> Summary:
         OSError: a file cannot be written.
     """
     summary = summarise(record)
-    units = {"columns": {column.name: column.unit for column in column_names(record)}}
-    content = summary.to_dict() | what_was_run(record.experiment, record.parameters) | units
-    text = json.dumps(content, indent=2, allow_nan=False) + "\n"
+    text = summary_text(record, summary)
     writers: tuple[Write, ...] = (
         lambda path: path.write_text(text, encoding="utf-8"),
         lambda path: write_csv(record, path),
@@ -111,3 +109,10 @@ def write_run(record: Record, folder: Path | str) -> Summary:
     )
     write_together(Path(folder), dict(zip(RUN_FILES, writers, strict=True)))
     return summary
+
+
+def summary_text(record: Record, summary: Summary) -> str:
+    """Text of ``summary.json``: key figures, what was run, and units of the columns."""
+    units = {"columns": {column.name: column.unit for column in column_names(record)}}
+    content = summary.to_dict() | what_was_run(record.experiment, record.parameters) | units
+    return json.dumps(content, indent=2, allow_nan=False) + "\n"
