@@ -65,6 +65,8 @@ class Exported:
         self._model: Any = mujoco.MjModel.from_xml_string(export_mjcf(robot))
         self._model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator.upper()}")
         self._model.opt.timestep = TICK / steps
+        # only the feet touch, as pairs: the robot in C has no other contact
+        self._model.geom_contype[:] = self._model.geom_conaffinity[:] = 0
         if not sensors:
             self._model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_SENSOR
         self._steps = steps
