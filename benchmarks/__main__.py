@@ -3,6 +3,7 @@
 from benchmarks import (
     batch,
     closed_loop,
+    controller,
     install,
     legs,
     memory,
@@ -15,6 +16,7 @@ from benchmarks.command import main
 
 if __name__ == "__main__":
     modules = (
-        closed_loop, batch, plant, mujoco_rollout, legs, memory, walk_command, install, study,
+        controller, closed_loop, batch, plant, mujoco_rollout, legs, memory, walk_command, install,
+        study,
     )  # fmt: skip
     main({module.__name__.split(".")[-1]: module.measure for module in modules}, __doc__)

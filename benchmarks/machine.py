@@ -5,13 +5,13 @@ from __future__ import annotations
 import importlib.metadata
 import os
 import platform
-import subprocess
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
+from apnc.studies.machine import commit, processor
 from apnc_plant.library import library
 
 ROOT: Final = Path(__file__).resolve().parent.parent
@@ -24,13 +24,13 @@ PACKAGES: Final = ("numpy", "scipy", "exudyn", "mujoco", "fmpy", "cffi")
 def machine() -> dict[str, str]:
     """Processor, system, versions and commit, by what they are."""
     return {
-        "processor": _processor(),
+        "processor": processor(),
         "instruction sets": ", ".join(levels().values()),
         "system": f"{platform.system()} {platform.machine()}, libc {platform.libc_ver()[1]}",
         "load": load(),
         "priority": f"nice {os.nice(0)}" if hasattr(os, "nice") else "",
         "date": time.strftime("%Y-%m-%d %H:%M"),
-        "commit": _commit(),
+        "commit": commit(),
         "python": platform.python_version(),
         "compiler": f"zig {_version('ziglang')}",
         **{name: _version(name) for name in PACKAGES},
@@ -64,24 +64,6 @@ def one_core(core: int) -> Iterator[None]:
         yield
     finally:
         os.sched_setaffinity(0, before)
-
-
-def _processor() -> str:
-    info = Path("/proc/cpuinfo")
-    if info.is_file():
-        for line in info.read_text().splitlines():
-            if line.startswith("model name"):
-                return f"{line.split(':')[1].strip()}, {os.cpu_count()} cores"
-    return f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores"
-
-
-def _commit() -> str:
-    command = ["git", "-C", str(ROOT), "describe", "--always", "--dirty", "--abbrev=12"]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-    except FileNotFoundError:
-        return "unknown"
-    return done.stdout.strip() or "unknown"
 
 
 def _version(package: str) -> str:

@@ -2,8 +2,8 @@
 
 The robot in MuJoCo is the exported MJCF, many of it at once by ``mujoco.rollout``. Error: rms
 difference of the vertical forces on the feet to those at 256 steps a tick of the same program, over
-their rms, in the open-loop trot of ``apnc study contact``; of the forces after each step, and of
-their means over each tick.
+their rms, in the open-loop trot of ``python -m research.contact``; of the forces after each step,
+and of their means over each tick.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ import mujoco
 import numpy as np
 from mujoco import rollout
 
-from apnc.studies.contact.measure import GRADUAL, OPEN_LOOP, TICK, Trot, errors, trot
 from apnc_plant.ground import GroundInC, Plane
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
@@ -29,12 +28,13 @@ from benchmarks.machine import levels, one_core
 from benchmarks.rows import Row, in_turn, processor_s, wall_s
 from benchmarks.ticks import STEPS, Trotting, trot_commands
 from mujoco_models.tree import export_mjcf
+from research.contact.measure import GRADUAL, OPEN_LOOP, TICK, Trot, errors, trot
 
 INTEGRATORS: Final = ("implicitfast", "Euler")
 """As exported; and the one with which MuJoCo is fastest at equal error."""
 
 ERRORS: Final = {"force_error": "each step", "tick_force_error": "mean over a tick"}
-"""Errors of ``apnc.studies.contact.measure``, and of which forces they are."""
+"""Errors of ``research.contact.measure``, and of which forces they are."""
 
 AIMED_AT: Final = "force_error"
 NEEDED: Final = 40.0
@@ -89,7 +89,7 @@ class Exported:
         return states, sensors
 
     def trot(self) -> Trot:
-        """The forces on the feet, as ``apnc study contact`` has them."""
+        """The forces on the feet, as ``python -m research.contact`` has them."""
         states, sensors = self.walk()
         vertical = sensors[0, _SETTLING * self._steps :][:, self._feet]
         forces = np.zeros((*vertical.shape, 3))

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from apnc.loop.engines import ENGINES, plant_in
-from apnc.studies.contact.measure import TICK
 from apnc_plant.robot import load_robot
 from benchmarks.command import Size, main
 from benchmarks.machine import levels, one_core
 from benchmarks.rows import Row, in_turn, processor_s
 from benchmarks.ticks import KINDS, Trotting, trot_commands
+from research.contact.measure import TICK
 
 UNIT = "us per tick and robot"
 

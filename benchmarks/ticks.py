@@ -11,7 +11,6 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from apnc.studies.contact.measure import TICK, commands
 from apnc_plant.ground import GroundInC, Plane
 from apnc_plant.library import aligned_memory, declarations, library
 from apnc_plant.numbers import robot_numbers
@@ -21,6 +20,7 @@ from apnc_plant.start import start_coordinates
 from build_fmu.compile import compile_library
 from build_fmu.library import sources
 from build_fmu.platforms import PLATFORMS, host_platform
+from research.contact.measure import TICK, commands
 
 Array = NDArray[np.float64]
 

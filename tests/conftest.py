@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import sys
 import zipfile
 from pathlib import Path
 
@@ -7,6 +8,9 @@ import pytest
 from raw_fmu import Library
 
 from build_fmu.build import host_fmu
+
+# research/ and benchmarks/ are not installed; at the end, so that the installed product is tested
+sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 
 @pytest.fixture(scope="session")

@@ -1,9 +1,10 @@
-"""Data flows one way: no package imports one that comes after it."""
+"""Data flows one way: no package imports one that comes after it, the product no laboratory."""
 
 from __future__ import annotations
 
 import ast
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "mujoco_models": {"apnc_plant"},
     "apnc": {"apnc_core", "apnc_plant", "build_fmu", "exudyn_models", "mujoco_models"},
 }
+PRODUCT = set(MAY_IMPORT)
+MAY_IMPORT |= {"research": PRODUCT, "benchmarks": PRODUCT | {"research"}}
 OUTSIDE_OF_CORE = {"numpy"}
 
 
@@ -38,6 +41,12 @@ def test_no_package_imports_upwards(package: str) -> None:
     for path in files:
         ours = imported(path) & set(MAY_IMPORT) - {package}
         assert ours <= MAY_IMPORT[package], path
+
+
+def test_the_wheel_holds_the_product_and_nothing_else() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    packed = project["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
+    assert set(packed) == PRODUCT | {"fmu_src"}
 
 
 def test_the_reference_needs_numpy_only() -> None:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from apnc.cli import bench, build, export_robot, info, memory, study, system, walk
+from apnc.cli import build, export_robot, info, memory, study, system, walk
 from apnc_core import __version__
 
 app = typer.Typer(
@@ -23,7 +23,6 @@ app.command("build-system")(system.build_system)
 app.command("info")(info.info)
 app.add_typer(memory.app, name="memory")
 app.add_typer(study.app, name="study")
-app.command("bench")(bench.bench)
 app.command("export-robot")(export_robot.export_robot)
 
 

@@ -6,16 +6,35 @@ from __future__ import annotations
 import codecs
 import io
 import sys
+from collections.abc import Callable
 from itertools import pairwise
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
+
+if TYPE_CHECKING:
+    import typer
 
 BAD_USE: Final = 2
 
 
-def main(arguments: list[str] | None = None) -> None:
-    """Run the command line.
+def _apnc() -> typer.Typer:
+    from apnc.cli.app import app
+
+    return app
+
+
+def main(
+    arguments: list[str] | None = None,
+    program: str = "apnc",
+    load: Callable[[], typer.Typer] = _apnc,
+) -> None:
+    """Run a command line.
+
+    Args:
+        arguments: of the command line; those of the process if omitted.
+        program: how it is called.
+        load: gives its commands.
 
     Exit codes: 0 done; 1 a robot that fell, a motion that diverged, a trial that failed; 2 a
     mistake of the caller, one line on stderr; 130 interrupted, 143 terminated.
@@ -26,7 +45,7 @@ def main(arguments: list[str] | None = None) -> None:
             stream.reconfigure(errors="as_shown")
     with STOP.listening():
         try:
-            code = _run(sys.argv[1:] if arguments is None else arguments)
+            code = _run(sys.argv[1:] if arguments is None else arguments, program, load)
         except Interrupted as request:
             sys.stderr.write(f"{request}\n")
             code = STOP.code
@@ -47,23 +66,21 @@ def _refuse_empty(words: list[str]) -> None:
             raise ValueError(f"{(word or before).removesuffix('=')} is empty")
 
 
-def _run(arguments: list[str]) -> int:
+def _run(arguments: list[str], program: str, load: Callable[[], typer.Typer]) -> int:
     try:
         _refuse_empty(arguments)
         import typer
 
-        from apnc.cli.app import app
-
-        command = typer.main.get_command(app)
-        code = command.main(args=arguments, prog_name="apnc", standalone_mode=False)
+        command = typer.main.get_command(load())
+        code = command.main(args=arguments, prog_name=program, standalone_mode=False)
     except Exception as error:
         if STOP.asked and not STOP.running:  # what an import has made of it
             raise Interrupted(NOTHING) from None
-        return _explained(error)
+        return _explained(error, program)
     return code if isinstance(code, int) else 0
 
 
-def _explained(error: Exception) -> int:
+def _explained(error: Exception, program: str) -> int:
     if hasattr(error, "exit_code") and type(error).__name__ == "Exit":
         return int(error.exit_code)
     if hasattr(error, "format_message"):  # a usage error of the command-line library
@@ -76,5 +93,5 @@ def _explained(error: Exception) -> int:
     else:
         raise error
     compiler = type(error).__name__ == "BuildError"  # what it says has several lines
-    sys.stderr.write(f"apnc: {text if compiler else ' '.join(text.split())}\n")
+    sys.stderr.write(f"{program}: {text if compiler else ' '.join(text.split())}\n")
     return BAD_USE

@@ -16,7 +16,7 @@ from typer import Option
 import apnc
 from apnc.cli.console import Number, Text, bar, say, writable
 from apnc.cli.interrupt import STOP, Interrupted
-from apnc.studies.registry import ALL, METHODS, ROBOT, STUDIES
+from apnc.studies.registry import ALL, METHODS, ROBOT, STUDIES, Entry, Registry
 
 _ABOUT: Final = {ROBOT: "Its name or file."}
 
@@ -31,9 +31,20 @@ app = typer.Typer(
 )
 
 
-def _command(name: str, axes: tuple[str, ...]) -> Callable[..., None]:
+def command_of(
+    name: str, axes: tuple[str, ...], studies: Registry, folder: str
+) -> Callable[..., None]:
+    """The command that runs a study.
+
+    Args:
+        name: of the study, or ``all``.
+        axes: its options besides those that all studies have.
+        studies: where the name is looked up.
+        folder: for the results unless another is asked for.
+    """
+
     def command(**options: Any) -> None:
-        _run(name, axes, **options)
+        _run(name, axes, studies=studies, **options)
 
     def option(name: str, kind: Any, default: Any, about: str) -> inspect.Parameter:
         form = Annotated[kind, Option(f"--{name}", help=about)]
@@ -44,7 +55,7 @@ def _command(name: str, axes: tuple[str, ...]) -> Callable[..., None]:
         option("duration", Number, None, "Simulated time of a trial [s]."),
         option("workers", int | None, None, "Threads; all cores if omitted."),
         option("scheduler", Text, None, "Address of a Dask scheduler, tcp://..."),
-        option("output", Path, Path(f"apnc-study-{name}"), "Folder for the results."),
+        option("output", Path, Path(folder), "Folder for the results."),
         option("resume", bool, False, "Finish an interrupted study."),
         option("series", bool, False, "Keep the record of every trial."),
         *(
@@ -84,7 +95,16 @@ def _run(
     raise typer.Exit(TRIAL_FAILED if ends["error"] else 0)
 
 
+def about(entry: Entry) -> str:
+    """What a study is, in a line."""
+    return f"{entry.title} ({entry.place or 'not in the paper'})"
+
+
+def _add(name: str, axes: tuple[str, ...], words: str) -> None:
+    command = command_of(name, axes, STUDIES, folder=f"apnc-study-{name}")
+    app.command(name, help=words, short_help=words)(command)
+
+
 for _each in STUDIES.values():
-    _about = f"{_each.title} ({_each.place or 'not in the paper'})"
-    app.command(_each.name, help=_about, short_help=_about)(_command(_each.name, _each.options))
-app.command(ALL, help="All of the paper's studies in one report")(_command(ALL, (METHODS, ROBOT)))
+    _add(_each.name, _each.options, about(_each))
+_add(ALL, (METHODS, ROBOT), "All of the paper's studies in one report")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import importlib
 from functools import cache
 from pathlib import Path
 from typing import Final
@@ -18,21 +19,39 @@ _PACKAGES: Final = (
 )
 _SUFFIXES: Final = (".c", ".h", ".py", ".toml")
 
-# of apnc: what only shows, times, exports or looks for parameters
-_APART: Final = {"bench", "cli", "report", "search", "system", "figures.py"}
-
+# of apnc and of packages with studies: what only shows, exports, documents or searches
+_APART: Final = {"cli", "docs", "report", "search", "system", "figures.py"}
 
 ROOT: Final = Path(__file__).parents[2]
 
 
 @cache
 def code_hash(root: Path = ROOT) -> str:
-    """Hash of names and content of the packages' files below ``root``, 12 hex digits."""
+    """Hash of names and content of the product's files below ``root``, 12 hex digits."""
+    return _hash(root, _PACKAGES)
+
+
+@cache
+def hash_of_package(name: str) -> str:
+    """The same of a package with studies that is not part of the product; empty for one that is.
+
+    Args:
+        name: of the package or of one in it; it can be imported.
+    """
+    top = name.partition(".")[0]
+    if top in _PACKAGES:
+        return ""
+    (folder,) = importlib.import_module(top).__path__
+    return _hash(Path(folder).parent, (top,))
+
+
+def _hash(root: Path, packages: tuple[str, ...]) -> str:
     found = hashlib.sha256()
-    paths = [path for package in _PACKAGES for path in (root / package).rglob("*.*")]
+    paths = [path for package in packages for path in (root / package).rglob("*.*")]
     for path in sorted(path for path in paths if path.suffix in _SUFFIXES):
         name = path.relative_to(root)
-        if not (name.parts[0] == "apnc" and _APART & {*name.parts}):
+        whole = name.parts[0] in _PACKAGES and name.parts[0] != "apnc"
+        if whole or not _APART & {*name.parts}:
             content = hashlib.sha256(path.read_bytes()).hexdigest()
             found.update(f"{name.as_posix()} {content}\n".encode())
     return found.hexdigest()[:12]

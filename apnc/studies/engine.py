@@ -15,11 +15,11 @@ from apnc.loop.many import walk_many
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.report.folder import write_together
-from apnc.studies.registry import ALL, METHODS, ROBOT, STUDIES, load, names_of
+from apnc.studies.registry import ALL, METHODS, ROBOT, STUDIES, Entry, Registry, names_of
 from apnc.studies.report import files_of
 from apnc.studies.rows import PHASE, Row
 from apnc.studies.store import Store, place_of
-from apnc.studies.study import Chosen, Trial
+from apnc.studies.study import Chosen, Trial, load
 from apnc.studies.workers import pool, rows_of
 from apnc.summary import summarise
 from build_fmu.build import host_fmu
@@ -48,6 +48,7 @@ def run_study(
     robot: str | None = None,
     progress: Progress = lambda done, total, simulated, total_s: None,
     stop: Callable[[], bool] = lambda: False,
+    studies: Registry = STUDIES,
 ) -> list[Row]:
     """Run a study, or ``all`` of the paper, and write its table, report and claims.
 
@@ -69,6 +70,7 @@ def run_study(
             studies that take none keep their own.
         progress: called after every trial.
         stop: asked a few times a second; True ends the study, what is finished stays.
+        studies: where the name is looked up; the product's if omitted.
 
     Returns:
         The rows in the order of the grid, fewer if it was stopped.
@@ -78,7 +80,8 @@ def run_study(
             ``resume``.
         OSError: a file cannot be written.
     """
-    grid = {trial.place: trial for trial in grid_of(name, trials, methods, chosen, duration, robot)}
+    asked = grid_of(name, trials, methods, chosen, duration, robot, studies)
+    grid = {trial.place: trial for trial in asked}
     folder = None if output is None else Path(output)
     path = None if folder is None else folder / ROWS_FILE
     if folder is None and series:
@@ -118,13 +121,14 @@ def grid_of(
     chosen: Chosen | None = None,
     duration: float | None = None,
     robot: str | None = None,
+    studies: Registry = STUDIES,
 ) -> list[Trial]:
     """The trials of a study, or of all of the paper's; see ``run_study``."""
     grid: list[Trial] = []
-    for each in names_of(name):
-        options = (METHODS, ROBOT) if name != ALL else STUDIES[each].options
+    for each in names_of(name, studies):
+        options = (METHODS, ROBOT) if name != ALL else studies[each].options
         own_methods, own_robot = METHODS not in options, ROBOT not in options
-        grid += load(each).grid(
+        grid += load(studies[each]).grid(
             trials,
             None if own_methods else methods,
             chosen,
@@ -180,7 +184,7 @@ def _row(trial: Trial, record: Record, series: Path | None) -> Row:
         path = series / f"{'-'.join(trial.place)}.csv"
         write_csv(record, aside := path.with_suffix(".part"))
         aside.replace(path)
-    return _begin(trial) | measured(trial.study, record)
+    return _begin(trial) | measured(trial.entry, record)
 
 
 def _failed(trial: Trial, error: Exception) -> Row:
@@ -192,7 +196,7 @@ def _begin(trial: Trial) -> Row:
     return {"study": trial.study, "key": trial.place[-1], **trial.cell}
 
 
-def measured(study: str, record: Record) -> Row:
+def measured(study: Entry, record: Record) -> Row:
     """Summary and the study's own figures of a record, how it ended, and what broke down."""
     found = summarise(record).to_dict()
     ended = {"ended_at_s": found.pop("duration_s"), "end": found.pop("end")}

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Final, NamedTuple
-
-if TYPE_CHECKING:
-    from apnc.studies.study import Study
+from collections.abc import Mapping
+from typing import Final, NamedTuple
 
 ALL: Final = "all"
 """The name that means every experiment of the paper."""
 
 METHODS: Final = "methods"
 """The option of studies that compare controllers."""
-
 
 ROBOT: Final = "robot"
 """The option of studies that any robot can walk."""
@@ -22,17 +18,27 @@ ROBOT: Final = "robot"
 class Entry(NamedTuple):
     """A study before it is loaded.
 
-    ``place`` is where the paper has it, empty for a study of the model itself; ``options`` is what
-    may be chosen besides the number of trials: methods, the robot, or axes of the grid.
+    Args:
+        name: of the study and of its module in the package, which holds it as ``STUDY``.
+        title: of its report.
+        place: where the paper has it, empty for a study of the model itself.
+        options: what may be chosen besides the number of trials: methods, the robot, or axes of
+            the grid.
+        package: that holds the module.
     """
 
     name: str
     title: str
     place: str = ""
     options: tuple[str, ...] = ()
+    package: str = "apnc.studies"
 
 
-STUDIES: Final = {
+Registry = Mapping[str, Entry]
+"""Studies by name."""
+
+
+STUDIES: Final[Registry] = {
     entry.name: entry
     for entry in (
         Entry("mi", "Stepping frequencies", "Fig. 4, S4, S5", (METHODS, ROBOT, "mi")),
@@ -43,31 +49,19 @@ STUDIES: Final = {
         Entry("states", "Motor memory", "Fig. 9-12", (ROBOT,)),
         Entry("steering", "Speed and direction", "Fig. 13, 14", (ROBOT, "course")),
         Entry("gains", "Strength of the feedback", "4.1", (METHODS, "mi", "gain")),
-        Entry("symmetry", "Equal loads", "4.1.1", ("mi",)),
         Entry("gait", "How it walks", "", (ROBOT, "mi")),
-        Entry("departures", "Departures taken back", "", ("removed", "task")),
-        Entry("sensitivity", "Numbers of the robot", "", ("change", "mi")),
-        Entry("forward_model", "Forward models", "", ("model", "mi")),
-        Entry("engines", "Three engines", "", (ROBOT, "engine", "mi")),
-        Entry("contact", "Integration step of the ground contact", "", ("depth", "steps")),
     )
 }
 
 
-def names_of(name: str) -> list[str]:
+def names_of(name: str, studies: Registry = STUDIES) -> list[str]:
     """The studies that a name means.
 
     Raises:
         ValueError: an unknown name.
     """
     if name == ALL:
-        return [entry.name for entry in STUDIES.values() if entry.place]
-    if name not in STUDIES:
-        raise ValueError(f"study '{name}' is not one of {', '.join(STUDIES)}, {ALL}")
+        return [entry.name for entry in studies.values() if entry.place]
+    if name not in studies:
+        raise ValueError(f"study '{name}' is not one of {', '.join(studies)}, {ALL}")
     return [name]
-
-
-def load(name: str) -> Study:
-    """A study of the registry, ready to run."""
-    study: Study = importlib.import_module(f"apnc.studies.{name}").STUDY
-    return study

@@ -8,18 +8,17 @@ from functools import partial
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from apnc.bench.run import machine
 from apnc.loop.provenance import what_was_run
 from apnc.report.figure import Figure
 from apnc.report.folder import Write
 from apnc.report.html import page
 from apnc.studies.claims import Claim, Finding, findings
 from apnc.studies.contenders import contender
+from apnc.studies.machine import commit, processor
 from apnc.studies.plots import CRITERIA
-from apnc.studies.registry import STUDIES, load
 from apnc.studies.rows import Row, matching, methods_in
 from apnc.studies.store import place_of
-from apnc.studies.study import Study, Trial
+from apnc.studies.study import Study, Trial, load
 from apnc.studies.table import markdown
 
 TABLE_FILE: Final = "trials.csv"
@@ -47,9 +46,9 @@ def files_of(
         scenes: run single experiments again to show them over time.
     """
     parts = [
-        part_of(load(name), [trial for trial in grid if trial.study == name], own, scenes)
-        for name in STUDIES
-        if (own := matching(rows, study=name))
+        part_of(load(entry), [trial for trial in grid if trial.entry == entry], own, scenes)
+        for entry in dict.fromkeys(trial.entry for trial in grid)
+        if (own := matching(rows, study=entry.name))
     ]
     facts = _facts(grid, rows, wall_s)
     texts = {
@@ -113,12 +112,12 @@ def _told(study: Study, label: str) -> str:
 
 
 def _facts(grid: Sequence[Trial], rows: Sequence[Row], wall_s: float) -> list[tuple[str, str]]:
-    here, versions = machine(), what_was_run(grid[0].experiment)["versions"]
+    versions = what_was_run(grid[0].experiment)["versions"]
     simulated = sum(row["duration"] for row in rows)
     return [
         ("trials", f"{len(rows)}, {simulated:.0f} s simulated in {wall_s / 60:.1f} min"),
-        ("machine", here["processor"]),
-        ("commit", here["commit"]),
+        ("machine", processor()),
+        ("commit", commit()),
         ("versions", ", ".join(f"{name} {version}" for name, version in versions.items())),
     ]
 

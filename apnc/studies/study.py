@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import itertools
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -9,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Final
 
+from apnc.loop.code import hash_of_package
 from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
@@ -16,7 +18,7 @@ from apnc.loop.steps import steps_text
 from apnc.report.figure import Figure
 from apnc.studies.claims import Claim
 from apnc.studies.contenders import ALL, contender
-from apnc.studies.registry import METHODS, ROBOT, STUDIES, Entry
+from apnc.studies.registry import METHODS, ROBOT, Entry
 from apnc.studies.rows import Row
 from apnc_core.in_python import in_python
 from apnc_plant.robot import RobotDescription
@@ -55,14 +57,25 @@ def fewer_of_others(**at: Sequence[Value]) -> Seeds:
 class Trial:
     """One experiment of a study, and where it stands in the grid."""
 
-    study: str
+    entry: Entry
     cell: Mapping[str, Any]
     experiment: Experiment
 
+    @property
+    def study(self) -> str:
+        """Name of the study."""
+        return self.entry.name
+
     @cached_property
     def place(self) -> tuple[str, str, str]:
-        """Study, label and key: two studies, and two labels, may mean the same experiment."""
-        return self.study, self.cell["method"], self.experiment.key()
+        """Study, label and key: two studies, and two labels, may mean the same experiment.
+
+        The key is that of the experiment; of a study outside the product, whose code the
+        experiment does not know, the hash of that code follows.
+        """
+        own = hash_of_package(self.entry.package)
+        key = self.experiment.key()
+        return self.study, self.cell["method"], f"{key}-{own}" if own else key
 
 
 @dataclass(frozen=True)
@@ -70,7 +83,7 @@ class Study:
     """A study.
 
     Args:
-        name: as in the registry.
+        entry: of the registry.
         experiment: makes one of the FMU's method, the seed, a value per axis and the robot if one
             is asked for, given by name; what it sets goes before the settings of the contender.
         axes: values along each axis of the grid, by name.
@@ -85,7 +98,7 @@ class Study:
         engine: what the robots walk in; None: its experiments say.
     """
 
-    name: str
+    entry: Entry
     experiment: Callable[..., Experiment]
     axes: Chosen = field(default_factory=dict)
     methods: tuple[str, ...] = ALL
@@ -98,9 +111,9 @@ class Study:
     engine: str | None = COMPILED
 
     @property
-    def entry(self) -> Entry:
-        """Title, place in the paper and options."""
-        return STUDIES[self.name]
+    def name(self) -> str:
+        """As in the registry."""
+        return self.entry.name
 
     def grid(
         self,
@@ -165,4 +178,10 @@ class Study:
         mi = experiment.mi if isinstance(experiment.mi, int | float) else steps_text(experiment.mi)
         first = {"method": cell["method"], "mi": mi, "seed": cell["seed"]}
         whole = {**first, "duration": experiment.duration, **cell, **own}
-        return Trial(self.name, whole, experiment)
+        return Trial(self.entry, whole, experiment)
+
+
+def load(entry: Entry) -> Study:
+    """A study of a registry, ready to run."""
+    study: Study = importlib.import_module(f"{entry.package}.{entry.name}").STUDY
+    return study

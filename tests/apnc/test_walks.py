@@ -13,12 +13,12 @@ from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.studies import gait, steering
-from apnc.studies.contact.measure import GRADUAL, SUDDEN, errors, trot
 from apnc.studies.states.measure import judge, measure
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.steering import course
 from apnc.studies.study import WALK_MI
 from apnc.summary import Summary, summarise
+from research.contact.measure import GRADUAL, SUDDEN, errors, trot
 
 
 def walked(**fields: Any) -> tuple[Record, Summary]:

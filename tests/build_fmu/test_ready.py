@@ -109,6 +109,7 @@ def test_a_wheel_for_this_machine_carries_its_fmus_and_the_robot_in_c(
     unpacked = tmp_path / "unpacked"
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(unpacked)
+    assert not [name for name in ("research", "benchmarks", "tests") if (unpacked / name).exists()]
     assert len(list((unpacked / "build_fmu" / "ready").glob("*.fmu"))) == 2
     # the key of what was packed is the key that the packed code asks for
     code = (

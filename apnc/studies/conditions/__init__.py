@@ -11,6 +11,7 @@ from apnc.report.figure import Figure
 from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Finding, Rule, verdict
 from apnc.studies.contenders import ALL, contender
 from apnc.studies.plots import over_axis
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import Row, cells_in, matching, methods_in, values
 from apnc.studies.statistics import Comparison, compare, holm, of_runs, p_text
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others
@@ -132,7 +133,7 @@ CLAIMS: Final = (
 )  # fmt: skip
 
 STUDY: Final = Study(
-    "conditions",
+    STUDIES["conditions"],
     experiment,
     {"condition": ("C1", "C2", "C3", "C4")},
     seeds=fewer_of_others(),

@@ -11,6 +11,7 @@ from apnc.report.figure import Figure
 from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Finding, verdict
 from apnc.studies.contenders import ALL, RIVALS, contender
 from apnc.studies.plots import counted, side_by_side
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import SPEED, Row, matching, methods_in, values
 from apnc.studies.statistics import compare, holm, median, p_text
 from apnc.studies.study import COURSE_MI, WALK_S, Study, fewer_of_others
@@ -47,7 +48,7 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
 CLAIM: Final = "with a damaged leg APNC walks fastest"
 
 STUDY: Final = Study(
-    "damage",
+    STUDIES["damage"],
     partial(Experiment, mi=COURSE_MI, conditions="C3", duration=WALK_S),
     seeds=fewer_of_others(),
     claims=(Claim("3.1.4, Fig. 8", CLAIM, fastest, ALL),),

@@ -27,6 +27,7 @@ from apnc.studies.claims import (
 )
 from apnc.studies.contenders import CONTENDERS, contender
 from apnc.studies.plots import convergence
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import AUTHORS, STRICT, Row, cells_in, is_number, matching, successes, values
 from apnc.studies.states.measure import STOPPED, WALKS
 from apnc.studies.statistics import compare, median, p_text, rate
@@ -220,7 +221,7 @@ CLAIMS: Final = (
 )  # fmt: skip
 
 STUDY: Final = Study(
-    "gains",
+    STUDIES["gains"],
     experiment,
     {"mi": (WALK_MI, 0.2), "gain": tuple(sorted({g for grid in GAINS.values() for g in grid}))},
     methods=tuple(GAINS),

@@ -13,6 +13,7 @@ from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.studies.claims import Claim, Finding, Rule, verdict
 from apnc.studies.plots import over_axis
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import STRICT, Row, cells_in, gait_in, matching, successes, values
 from apnc.studies.statistics import rate
 from apnc.studies.study import WALK_S, Study
@@ -198,7 +199,7 @@ AIMS: Final = (
 """What the robot is built for; not claims of the paper."""
 
 STUDY: Final = Study(
-    "gait",
+    STUDIES["gait"],
     partial(Experiment, duration=WALK_S),
     {"mi": MI_VALUES},
     methods=("apnc",),

@@ -26,6 +26,7 @@ from apnc.studies.claims import (
 )
 from apnc.studies.contenders import ALL, PHASE_RESET, TEGOTAE, contender
 from apnc.studies.plots import convergence, over_axis
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import (
     AUTHORS,
     SPEED,
@@ -159,7 +160,7 @@ CLAIMS: Final = (
 )  # fmt: skip
 
 STUDY: Final = Study(
-    "mi",
+    STUDIES["mi"],
     partial(Experiment, duration=WALK_S),
     {"mi": MI_VALUES},
     methods=("apnc", "apc", *ALL[1:]),

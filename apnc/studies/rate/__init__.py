@@ -21,6 +21,7 @@ from apnc.studies.claims import (
 )
 from apnc.studies.contenders import ALL, RIVALS, TEGOTAE
 from apnc.studies.plots import convergence
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import Row, successes
 from apnc.studies.statistics import rate
 from apnc.studies.study import WALK_MI, Study, fewer_of_others
@@ -59,7 +60,7 @@ CLAIMS: Final = (
 )  # fmt: skip
 
 STUDY: Final = Study(
-    "rate",
+    STUDIES["rate"],
     partial(Experiment, mi=WALK_MI, duration=60.0),
     {"rate": RATES},
     seeds=fewer_of_others(rate=OTHERS_RATES),

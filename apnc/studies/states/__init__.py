@@ -7,6 +7,7 @@ from typing import Final
 
 from apnc.studies.claims import FEW, MIN_SEEDS, Claim, Finding, Rule, of_told, verdict
 from apnc.studies.contenders import RIVALS, contender
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import Row, gait_in, is_number, matching, methods_in, values
 from apnc.studies.states.figures import COUPLINGS, STATES, figures, scenes
 from apnc.studies.states.measure import measure
@@ -133,7 +134,7 @@ CLAIMS: Final = (
 )  # fmt: skip
 
 STUDY: Final = Study(
-    "states",
+    STUDIES["states"],
     TIMELINE.experiment,
     methods=(*COUPLINGS, *RIVALS, "apnc_kept"),
     seeds=fewer_of_others(),

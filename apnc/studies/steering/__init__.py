@@ -12,6 +12,7 @@ from apnc import metrics
 from apnc.loop.record import Record
 from apnc.loop.steps import steps_of
 from apnc.studies.claims import FEW, MIN_SEEDS, NO, PARTLY, YES, Claim, Finding, ranks, verdict
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import Row, cells_in, matching, values
 from apnc.studies.statistics import median
 from apnc.studies.steering.course import SLOPES, SPEED, YAW_RATE, experiment
@@ -96,7 +97,7 @@ CLAIMS: Final = (
 )
 
 STUDY: Final = Study(
-    "steering",
+    STUDIES["steering"],
     experiment,
     {"course": ("speeds", "turns", *SLOPES)},
     methods=("apnc",),

@@ -23,6 +23,7 @@ from apnc.studies.claims import (
 )
 from apnc.studies.contenders import ALL, PHASE_RESET, TEGOTAE
 from apnc.studies.plots import convergence
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import Row, successes, values
 from apnc.studies.statistics import compare_rates, compare_spread, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others
@@ -91,7 +92,7 @@ CLAIMS: Final = (
 )  # fmt: skip
 
 STUDY: Final = Study(
-    "terrain",
+    STUDIES["terrain"],
     experiment,
     {"roughness": ROUGHNESS},
     seeds=fewer_of_others(roughness=OTHERS_ROUGHNESS),

@@ -49,8 +49,19 @@ def test_ctrl_c_during_the_imports_is_no_traceback(at: str, tmp_path: Path) -> N
     assert not (tmp_path / "apnc-walk" / "summary.json").exists()
 
 
-IN_C = ("mi", "--methods", "apnc", "--duration", "900")
-IN_PROCESSES = ("engines", "--engine", "exudyn", "--duration", "3")
+ROOT = Path(__file__).resolve().parents[3]
+IN_C = ("apnc", "study", "mi", "--methods", "apnc", "--duration", "900")
+IN_PROCESSES = ("research.engines", "--engine", "exudyn", "--duration", "3")
+
+
+def command(study: tuple[str, ...], folder: Path, *options: str) -> tuple[str, ...]:
+    """Arguments of Python for a study that writes into a folder."""
+    return (*options, "-m", *study, "--output", str(folder))
+
+
+def place(study: tuple[str, ...], folder: Path) -> Path:
+    """Where it runs: what is installed anywhere, the rest in the checkout."""
+    return ROOT if study[0].startswith("research") else folder
 
 
 @pytest.mark.parametrize(
@@ -62,12 +73,12 @@ def test_ctrl_c_in_a_study_also_reaches_workers_and_is_no_traceback(
     study: tuple[str, ...], at: str, tmp_path: Path
 ) -> None:
     some = ("--trials", "4", "--mi", "0.08", "--workers", "2")
-    python = (sys.executable, "-X", "importtime", "-m", "apnc", "study", *study)
-    code, shown = interrupted(*python, *some, at=at, cwd=tmp_path)
+    words = command((*study, *some), tmp_path / "out", "-X", "importtime")
+    code, shown = interrupted(sys.executable, *words, at=at, cwd=place(study, tmp_path))
     said = [line for line in shown.splitlines() if not line.startswith("import time:")]
     assert code == 130, said
     assert not any("Traceback" in line or "segmentation" in line for line in said)
-    store = tmp_path / f"apnc-study-{study[0]}" / "trials.jsonl"
+    store = tmp_path / "out" / "trials.jsonl"
     rows = store.read_text().splitlines() if store.exists() else []
     assert len(rows) < 4
     assert all(json.loads(row)["error"] == "" for row in rows)
@@ -82,10 +93,13 @@ def test_a_terminated_study_has_written_what_had_ended(
     study: tuple[str, ...], tmp_path: Path
 ) -> None:
     some = r"[1-9][0-9]* of 4000? trials"
-    code, shown = interrupted(*APNC, "study", *study, at=some, cwd=tmp_path, by=signal.SIGTERM)
+    folder = tmp_path / "out"
+    words = command(study, folder)
+    code, shown = interrupted(
+        sys.executable, *words, at=some, cwd=place(study, tmp_path), by=signal.SIGTERM
+    )
     assert code == 143 and "interrupted; --resume finishes it" in shown, shown
     assert "Traceback" not in shown
-    folder = tmp_path / f"apnc-study-{study[0]}"
     rows = [json.loads(line) for line in (folder / "trials.jsonl").read_text().splitlines()]
     assert 0 < len(rows) < 4000 and {row["error"] for row in rows} == {""}
     with (folder / "trials.csv").open(newline="", encoding="utf-8") as file:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import pickle
 import re
+import sys
 import zipfile
 from copy import deepcopy
 from dataclasses import replace
@@ -15,7 +16,7 @@ import numpy as np
 import pytest
 
 from apnc import Conditions, Experiment, Ground, load_robot
-from apnc.loop.code import code_hash
+from apnc.loop.code import code_hash, hash_of_package
 from apnc.loop.plain import plain
 from apnc.loop.provenance import what_was_run
 from apnc_core.enumerations import Method
@@ -156,6 +157,31 @@ def test_an_edit_is_other_code_but_not_one_of_what_only_shows(
     (tmp_path / "a").rename(tmp_path / "b")
     (tmp_path / "b" / file).write_text("y")
     assert (code_hash(tmp_path / "b") != before) == counts
+
+
+@pytest.mark.parametrize(
+    ("file", "counts"),
+    [("measure.py", True), ("part/measure.py", True), ("figures.py", False), ("docs/x.py", False)],
+)
+def test_an_edit_of_a_package_with_studies_is_other_code(
+    file: str, counts: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "own_studies" / file
+    path.parent.mkdir(parents=True)
+    (tmp_path / "own_studies" / "__init__.py").write_text("")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    found = []
+    for text in "xy":
+        path.write_text(text)
+        hash_of_package.cache_clear()
+        found.append(hash_of_package("own_studies.part"))
+    del sys.modules["own_studies"]
+    assert "" not in found
+    assert (found[0] != found[1]) == counts
+
+
+def test_the_product_has_no_hash_besides_that_of_the_experiment() -> None:
+    assert hash_of_package("apnc.studies") == ""
 
 
 def test_the_same_parameters_said_otherwise_have_the_same_key() -> None:

@@ -14,13 +14,11 @@ from scipy import stats
 from apnc.studies import (
     conditions,
     damage,
-    forward_model,
     gains,
     mi,
     rate,
     states,
     steering,
-    symmetry,
     terrain,
 )
 from apnc.studies.claims import (
@@ -266,13 +264,6 @@ def over_gain(
     return made_up(cells, figures, methods=("tegotae", "apnc"), study="gains")
 
 
-def apart(*parted: float | None) -> list[Row]:
-    """When the legs of the symmetric robot part, by MI."""
-    cells = {"mi": tuple(0.08 + 0.04 * i for i in range(len(parted)))}
-    rows = made_up(cells, lambda _: {}, methods=("apnc",), seeds=1, study="symmetry")
-    return [r | {symmetry.PARTED: t, STRICT: t} for r, t in zip(rows, parted, strict=True)]
-
-
 FAST = {"apnc": 2.0, "tegotae": 9.0, "phase_reset": 1.0}
 ALIKE = dict.fromkeys(("apnc", "tegotae", "phase_reset"), 5.0)
 SLOW = {"apnc": 9.0, "tegotae": 2.0, "phase_reset": 9.5}
@@ -474,10 +465,6 @@ CASES: list[tuple[str, str, list[Row], str]] = [
     ("gains", "with too weak an inhibition", over_gain(weak=2.0, good=1.99), NO),
     ("gains", "with too weak an inhibition",
      [r for r in over_gain() if r["gain"] != 4.0 and (r["seed"] < 4 or r["gain"] == 1.0)], FEW),
-    ("symmetry", "if all loads", apart(None, None, None, None), YES),
-    ("symmetry", "if all loads", apart(None, 3.0, 3.0, 3.0), PARTLY),
-    ("symmetry", "if all loads", apart(3.0, 3.0, 3.0, 3.0), NO),
-    ("symmetry", "if all loads", apart(None, None), FEW),
 ]  # fmt: skip
 for _text, _state, _method in (
     ("S1: set down", "S1", "apnc"),
@@ -506,8 +493,8 @@ def test_verdict(study: str, text: str, rows: list[Row], expected: str) -> None:
     assert verdict(claim_of(study, text), rows) == expected
 
 
-# what the robot is built for is in test_gait, the forward models are below
-@pytest.mark.parametrize("name", sorted(set(STUDIES) - {"gait", "forward_model"}))
+# what the robot is built for is in test_gait
+@pytest.mark.parametrize("name", sorted(set(STUDIES) - {"gait"}))
 def test_every_claim_has_a_case_for_each_of_its_verdicts(name: str) -> None:
     for claim in claims_of(name):
         own = {case[3] for case in CASES if case[0] == name and claim.text.startswith(case[1])}
@@ -700,59 +687,6 @@ def test_the_other_figures_are_told() -> None:
     )
     text = gains.too_weak(over_gain(weak=never), STRICT).measured
     assert text.startswith("Tegotae: -, n = 0 of 6 at 0.01, 2.0 (2.0 ... 2.0) s, n = 6 at 1")
-    assert measured(symmetry.in_phase, apart(None, 3.0, 5.0)) == (
-        "together in 1 of 3; parted after 4.0 (3.0 ... 5.0) s, n = 2 of 3; "
-        "trot after 4.0 (3.0 ... 5.0) s, n = 2 of 3"
-    )
-
-
-def of_models(**figures: Any) -> list[Row]:
-    """Walks with every forward model; a figure is a number, or a function of the cell."""
-    axes = {"model": tuple(forward_model.MODELS), "mi": (0.08, 0.15)}
-    return made_up(
-        axes,
-        lambda cell: {k: v(cell) if callable(v) else v for k, v in figures.items()},
-        ("apnc",),
-        study="forward_model",
-    )
-
-
-@pytest.mark.parametrize("model", ["low_pass_knee", "radial_basis"])
-@pytest.mark.parametrize(
-    ("failing", "expected"), [(0, YES), (1, PARTLY), (6, NO)], ids=["none", "one", "half"]
-)
-def test_a_forward_model_forms_the_gait(model: str, failing: int, expected: str) -> None:
-    def time(cell: Row) -> float | None:
-        lost = cell["model"] == model and cell["mi"] == 0.15 and cell["seed"] < failing
-        return None if lost else 2.0
-
-    rows = of_models(**{STRICT: time, AUTHORS: time})
-    assert forward_model.forms(model)(rows).verdict == expected
-    other = "radial_basis" if model == "low_pass_knee" else "low_pass_knee"
-    assert forward_model.forms(other)(rows).verdict == YES
-
-
-@pytest.mark.parametrize(
-    ("late", "expected"), [(0.02, YES), (0.08, PARTLY), (0.12, NO), (None, NO)]
-)
-def test_the_gain_falls_of_itself(late: float | None, expected: str) -> None:
-    rows = of_models(
-        gain_forming=0.1, gain_late=lambda c: late if c["model"] == "radial_basis" else 0.02
-    )
-    assert forward_model.gain_falls("radial_basis")(rows).verdict == expected
-    assert forward_model.gain_falls("low_pass_hip")(rows).verdict == YES
-
-
-def test_the_figures_of_the_forward_models_are_told() -> None:
-    rows = of_models(gain_forming=0.1, gain_late=0.025)
-    assert measured(forward_model.gain_falls("radial_basis"), rows) == (
-        "0.100 (0.100 ... 0.100), late 0.025 (0.025 ... 0.025), ratio 0.25 (0.25 ... 0.25), n = 12"
-    )
-    rows = of_models(**{STRICT: 2.0, AUTHORS: None})
-    assert measured(forward_model.forms("radial_basis"), rows) == (
-        "strict: 12/12 (74 ... 100 %), 2.0 (2.0 ... 2.0) s, with the hip's 2.0 (2.0 ... 2.0) s; "
-        "authors': 0/12 (0 ... 26 %), -, with the hip's -"
-    )
 
 
 def test_holm_corrects_over_all_tests_of_all_metrics() -> None:

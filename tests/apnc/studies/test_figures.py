@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pytest
 from made_up_rows import Row, made_up
 
 from apnc.report.figure import Figure
-from apnc.studies import conditions, contact, gains, mi, sensitivity, states, steering
-from apnc.studies.contact.measure import Trot
+from apnc.studies import conditions, gains, mi, states, steering
 from apnc.studies.contenders import CONTENDERS
 from apnc.studies.plots import convergence, over_axis, side_by_side, spread
-from apnc.studies.registry import load
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import AUTHORS, STRICT, methods_in
+from apnc.studies.study import load
 
 AXIS = ("mi", "MI [1]")
 OLD = ("apnc", "tegotae", "phase_reset")
@@ -119,7 +118,7 @@ def test_side_by_side_keeps_the_order() -> None:
 
 def test_the_studies_of_the_paper_have_their_figures() -> None:
     def keys(name: str, rows: list[Row]) -> list[str]:
-        return [figure.key for figure in load(name).figures(rows)]
+        return [figure.key for figure in load(STUDIES[name]).figures(rows)]
 
     rows = made_up({"mi": (0.08, 0.2)}, times, OLD)
     both = [STRICT, AUTHORS]
@@ -127,7 +126,7 @@ def test_the_studies_of_the_paper_have_their_figures() -> None:
     for name, axis in (("rate", "rate"), ("terrain", "roughness")):
         cells = made_up({axis: (5.0, 60.0)}, lambda cell: {STRICT: 3.0, AUTHORS: 2.0}, study=name)
         assert keys(name, cells) == [f"{name}-{c}" for c in both]
-        title = load(name).figures(cells)[0].layout["xaxis"]["title"]["text"]
+        title = load(STUDIES[name]).figures(cells)[0].layout["xaxis"]["title"]["text"]
         assert title in ("update rate [Hz]", "roughness R [1]")
 
 
@@ -137,11 +136,11 @@ def test_conditions_name_what_differs() -> None:
         return dict.fromkeys(conditions.METRICS, 0.1 * cell["seed"] + better)
 
     rows = made_up({"condition": ("C1", "C2")}, figures, seeds=20, study="conditions")
-    for figure in load("conditions").figures(rows):
+    for figure in load(STUDIES["conditions"]).figures(rows):
         assert figure.note.startswith("APNC differs from: C2 Tegotae (p < 0.001")
         assert "C2 phase resetting (p < 0.001" in figure.note and "C1" not in figure.note
         assert "Holm" in figure.note
-    alike = load("conditions").figures([r for r in rows if r["condition"] == "C1"])
+    alike = load(STUDIES["conditions"]).figures([r for r in rows if r["condition"] == "C1"])
     assert alike[0].note.startswith("APNC differs from: no baseline.")
     assert [f.layout["yaxis"]["title"]["text"] for f in alike] == [
         "balance [1/rad]",
@@ -154,7 +153,7 @@ def test_damage_shows_the_speed_of_every_method() -> None:
     speed = {"apnc": 0.1, "tegotae": 0.2, "phase_reset": 0.3}
     rows = made_up({}, lambda c: {"path_speed_m_per_s": speed[c["method"]]}, OLD, study="damage")
     rows[0]["path_speed_m_per_s"] = None
-    (figure,) = load("damage").figures(rows)
+    (figure,) = load(STUDIES["damage"]).figures(rows)
     assert (figure.key, figure.title) == ("damage-speed", "Speed")
     assert figure.note == "Commands of leg RF held at 0."
     assert figure.layout["yaxis"]["title"]["text"] == "speed [m/s]"
@@ -264,39 +263,6 @@ def test_the_table_of_mi_has_a_line_per_method_and_mi() -> None:
     assert len(lines) == 6
 
 
-def test_the_table_of_sensitivity_shows_what_did_not_form() -> None:
-    def figures(cell: Row) -> Row:
-        time = None if cell["seed"] else 3.21
-        return {STRICT: time, "path_speed_m_per_s": 0.05, "fell": bool(cell["seed"])}
-
-    cells = {"change": ("nothing",), "mi": (0.08, 0.16)}
-    rows = made_up(cells, figures, methods=("apnc",), seeds=2, study="sensitivity")
-    assert sensitivity.table(rows).splitlines()[0] == (
-        "| change | MI 0.08: trot after [s] | MI 0.08: speed [m/s] | "
-        "MI 0.16: trot after [s] | MI 0.16: speed [m/s] | fell |"
-    )
-    assert sensitivity.table(rows).splitlines()[2] == (
-        "| nothing | 3.2, - | 0.050 | 3.2, - | 0.050 | 2/4 |"
-    )
-
-
-def test_the_duty_factor_is_shown_of_what_walked_at_more_mi() -> None:
-    def figures(cell: Row) -> Row:
-        return {"duty_factor_mean": 0.5 + cell["mi"], "path_speed_m_per_s": 0.05}
-
-    cells = {"change": ("nothing", "P x 0.8", sensitivity.SOFT), "mi": (0.08, 0.16, 0.24)}
-    every = made_up(cells, figures, methods=("apnc",), seeds=1, study="sensitivity")
-    assert "duty" not in sensitivity.table([r for r in every if r["mi"] < 0.2])
-    rows = [r for r in every if r["mi"] < 0.2 or r["change"] != "P x 0.8"]
-    changes, duty = sensitivity.table(rows).split("\n\n")
-    assert "MI 0.24" not in changes and len(changes.splitlines()) == 5
-    assert duty.splitlines()[2].startswith("| nothing | 0.58 (0.58 ... 0.58) | 0.050 (0.050")
-    assert [line.split(" | ")[0] for line in duty.splitlines()[2:]] == [
-        "| nothing",
-        f"| {sensitivity.SOFT}",
-    ]
-
-
 def gain_rows() -> list[Row]:
     def figures(cell: Row) -> Row:
         good = cell["gain"] == 1.0
@@ -349,43 +315,3 @@ def test_baselines_in_the_states_are_judged_by_the_gait_of_the_robot(legs: int, 
     assert (
         f"| Tegotae (best) | S2 | keeps the {gait} and walks | 1/6 (0 ... 64 %) | - | - |" in text
     )
-
-
-def test_contact_shows_error_and_chatter_over_the_step() -> None:
-    def figures(cell: Row) -> Row:
-        step = 1e3 / 60 / cell["steps"]
-        error = 0.0 if cell["steps"] == 256 else 0.1 * step
-        return {"step_ms": step, "force_error": error, "chatter": 0.01}
-
-    axes = {"depth": (2e-4, 1e-6), "steps": (8, 256)}
-    rows = made_up(axes, figures, methods=("apnc",), seeds=1, study="contact")
-    del rows[0]["force_error"], rows[0]["chatter"]  # ended with an error
-    (figure,) = contact.STUDY.figures(rows)
-    shown = {trace["name"]: trace["x"] for trace in figure.data}
-    assert shown["force error, damping depth 0.2 mm"] == []
-    assert shown["force error, damping depth 0.001 mm"] == [pytest.approx(1e3 / 60 / 8)]
-    assert len(shown["chatter, damping depth 0.001 mm"]) == 2
-    assert figure.layout["xaxis"]["type"] == figure.layout["yaxis"]["type"] == "log"
-    assert figure.layout["xaxis"]["title"]["text"] == "step [ms]"
-    assert figure.layout["yaxis"]["title"]["text"] == "error, chatter [1]"
-    assert figure.key == "contact-error" and not figure.over_time
-    assert all(trace["mode"] == "lines+markers" for trace in figure.data)
-
-
-def test_touch_down_is_shown_for_four_laws(monkeypatch: pytest.MonkeyPatch) -> None:
-    def trot(depth: float, steps: int) -> Trot:
-        forces = np.zeros((600, 4, 3))
-        forces[300:, 0, 2] = 1.0
-        return Trot(forces, np.zeros(3))
-
-    monkeypatch.setattr(contact, "trot", trot)
-    (figure,) = contact.STUDY.scenes("lilibot")
-    assert figure.layout["xaxis"]["title"]["text"] == "time from touch-down [ms]"
-    assert figure.layout["yaxis"]["title"]["text"] == "vertical force on foot RF [N]"
-    assert figure.key == "contact-force" and not figure.over_time
-    assert [trace["name"] for trace in figure.data] == [
-        "0.0651 ms, damping depth 0.001 mm",
-        "0.0651 ms, damping depth 0.4 mm",
-        "0.521 ms, damping depth 0.4 mm",
-        "1.04 ms, damping depth 0.4 mm",
-    ]

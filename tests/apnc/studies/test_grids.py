@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
-import importlib
 from collections import Counter
-from collections.abc import Mapping
-from dataclasses import asdict
 from typing import Any
 
 import pytest
 
 from apnc.loop.steps import parse_steps, steps_of
-from apnc.studies import contact, engines, gains, sensitivity
+from apnc.studies import gains
 from apnc.studies.contenders import ALL, RIVALS, contender
 from apnc.studies.engine import grid_of
-from apnc.studies.registry import STUDIES, load, names_of
-from apnc.studies.study import Trial
-from apnc_core.enumerations import ForwardModel
+from apnc.studies.registry import STUDIES, names_of
+from apnc.studies.study import Trial, load
 from apnc_plant.robot import load_robot
-
-LILIBOT = load_robot("lilibot")
 
 
 def count(name: str, trials: int = 2, **more: Any) -> Counter[tuple[Any, ...]]:
     """How often each method and value of the axes occurs."""
-    axes = load(name).axes
+    axes = load(STUDIES[name]).axes
     return Counter(
         (t.cell["method"], *(t.cell[axis] for axis in axes)) for t in grid_of(name, trials, **more)
     )
@@ -43,7 +37,6 @@ def of(name: str, **cell: Any) -> list[Trial]:
         ("conditions", 4, 4, ALL, 45.0),
         ("damage", 1, 1, ALL, 45.0),
         ("states", 1, 1, ("apnc", "apc", *RIVALS, "apnc_kept"), 34.0),
-        ("contact", 12, 0, ("apnc",), 30.0),
     ],
 )
 def test_apnc_walks_every_cell_and_the_others_fewer_with_half_of_the_seeds(
@@ -59,10 +52,6 @@ def test_apnc_walks_every_cell_and_the_others_fewer_with_half_of_the_seeds(
     assert {t.experiment.duration for t in grid_of(name, 1)} == {duration}
 
 
-SET_THEMSELVES = ("gains", "steering", "forward_model", "departures")
-"""Studies whose trials have settings besides those of their contender."""
-
-
 @pytest.mark.parametrize("name", STUDIES)
 def test_a_trial_is_what_its_cell_says(name: str) -> None:
     for trial in grid_of(name, 2):
@@ -71,12 +60,7 @@ def test_a_trial_is_what_its_cell_says(name: str) -> None:
         assert trial.experiment.seed == trial.cell["seed"]
         assert trial.experiment.preset == "robot"
         assert trial.experiment.description.name == "lilibot"
-        if name not in (
-            "gains",
-            "steering",
-            "forward_model",
-            "departures",
-        ):  # which set something themselves
+        if name not in ("gains", "steering"):  # which set something themselves
             settings = contender(trial.cell["method"]).settings_in(name)
             assert dict(trial.experiment.settings) == dict(settings)
 
@@ -84,18 +68,6 @@ def test_a_trial_is_what_its_cell_says(name: str) -> None:
 def test_all_of_the_paper_takes_a_minute() -> None:
     """On two cores at 1,000 simulated seconds per second and core, with a little to spare."""
     assert sum(trial.experiment.duration for trial in grid_of("all", 20)) <= 95_000.0
-
-
-def test_engines_that_are_not_installed_walk_only_if_they_are_asked_for(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(engines, "find_spec", lambda name: object())
-    assert Counter(cell[1] for cell in count("engines", 1)) == dict.fromkeys(engines.ENGINES, 12)
-    monkeypatch.setattr(engines, "find_spec", lambda name: None)
-    assert {cell[1] for cell in count("engines", 1)} == {"exudyn", "compiled"}
-    assert count("engines", 3, chosen={"engine": ["mujoco"], "mi": [0.08]}) == {
-        ("apnc", "mujoco", 0.08): 3
-    }
 
 
 def test_values_that_are_chosen_are_walked_in_full() -> None:
@@ -126,35 +98,13 @@ def test_learning_rates_end_at_their_limit() -> None:
     assert most.experiment.settings["B_f"] == 1.0
 
 
-def test_equal_loads_are_walked_once_per_mi() -> None:
-    trials = grid_of("symmetry", 20)
-    assert [t.experiment.mi for t in trials] == [0.08, 0.12, 0.16, 0.2, 0.24]
-    for trial in trials:
-        robot = trial.experiment.description
-        assert robot.trunk.com_side_offset == robot.sensor.noise == 0.0
-        assert robot.mass == LILIBOT.mass and not trial.experiment.settings
-
-
-def test_forward_models_differ_in_nothing_else() -> None:
-    trials = grid_of("forward_model", 2)
-    assert count("forward_model") == {
-        ("apnc", model.name, mi): 2 for model in ForwardModel for mi in (0.08, 0.15, 0.24)
-    }
-    for trial in trials:
-        parameters = trial.experiment.parameters()
-        assert parameters["forward_model"] == ForwardModel[trial.cell["model"]]
-        assert trial.experiment.duration == 25.0
-        assert set(trial.experiment.settings) == {"forward_model"}
-
-
 def test_the_paper_is_all_of_its_experiments() -> None:
-    ours = ("gait", "departures", "sensitivity", "forward_model", "contact", "engines")
-    assert names_of("all") == [name for name in STUDIES if name not in ours]
+    assert names_of("all") == [name for name in STUDIES if name != "gait"]
     assert {t.study for t in grid_of("all", 1)} == set(names_of("all"))
 
 
 def test_every_trial_has_its_own_place() -> None:
-    trials = grid_of("all", 2) + grid_of("sensitivity", 2) + grid_of("contact", 2)
+    trials = grid_of("all", 2)
     assert len({t.place for t in trials}) == len(trials)
 
 
@@ -232,81 +182,6 @@ def test_slopes_are_scaled_on_straight_walks_with_half_of_the_seeds() -> None:
         assert after == pytest.approx(1.2 * before)  # type: ignore[operator]
 
 
-def test_most_changes_walk_at_two_mi() -> None:
-    found = Counter(cell[1] for cell in count("sensitivity"))
-    assert found.pop("nothing") == found.pop(sensitivity.SOFT) == 6
-    assert len(found) == 27 and set(found.values()) == {2}
-
-
-def leaves(value: Any, name: str = "") -> dict[str, Any]:
-    """Every number of nested data, by its place."""
-    if isinstance(value, dict):
-        pairs = list(value.items())
-    elif isinstance(value, (list, tuple)):
-        pairs = list(enumerate(value))
-    else:
-        return {name: value}
-    return {k: v for key, part in pairs for k, v in leaves(part, f"{name}/{key}").items()}
-
-
-@pytest.fixture
-def changes() -> Mapping[str, sensitivity.Change]:
-    # made anew: a mutation run switches a mutant on after modules were imported
-    found: Mapping[str, sensitivity.Change] = importlib.reload(sensitivity).CHANGES
-    return found
-
-
-@pytest.mark.parametrize("name", sensitivity.CHANGES)
-def test_a_change_touches_one_number_of_each_part(
-    name: str, changes: Mapping[str, sensitivity.Change]
-) -> None:
-    robot = changes[name](LILIBOT)
-    before, after = leaves(asdict(LILIBOT)), leaves(asdict(robot))
-    changed = [key for key in before if before[key] != after[key]]
-    if name == "nothing":
-        assert changed == []
-    elif "tibia" in name:
-        assert len(changed) == 2 * len(LILIBOT.legs)
-        assert robot.mass == pytest.approx(LILIBOT.mass)
-        assert robot.legs[0].femur.mass > LILIBOT.legs[0].femur.mass
-    elif name == sensitivity.SOFT:
-        assert (robot.servo.stiffness, robot.servo.damping) == (12.0, 1.5)
-        assert len(changed) == 2
-    else:
-        assert len(changed) == 1
-
-
-def test_changes_do_what_they_say(changes: Mapping[str, sensitivity.Change]) -> None:
-    after = {name: change(LILIBOT) for name, change in changes.items()}
-    assert after["friction 0.5"].contact.friction == 0.5
-    assert after["P x 0.8"].servo.stiffness == pytest.approx(0.8 * LILIBOT.servo.stiffness)
-    assert after["sensor shows the norm"].sensor.component == "norm"
-    x, y, z = LILIBOT.trunk.body.com
-    higher = after["trunk's centre of mass 10 mm higher"].trunk.body.com
-    assert higher == pytest.approx((x, y, z + 0.01))
-    assert after["5 mm further back"].trunk.body.com == pytest.approx((x - 0.005, y, z))
-    legs = after["25 g from each tibia to its femur"].legs
-    for leg, own in zip(legs, LILIBOT.legs, strict=True):
-        assert leg.femur.mass == pytest.approx(own.femur.mass + 0.025)
-        assert leg.tibia.mass == pytest.approx(own.tibia.mass - 0.025)
-
-
-def test_the_changed_robot_walks() -> None:
-    trials = grid_of("sensitivity", 1, chosen={"change": ["friction 0.5"], "mi": [0.1]})
-    assert [t.experiment.description.contact.friction for t in trials] == [0.5]
-    assert [t.experiment.mi for t in trials] == [0.1]
-
-
-def test_contact_varies_damping_depth_and_step() -> None:
-    cells = {
-        (t.experiment.description.contact.damping_depth, round(1 / 60 / t.experiment.step))
-        for t in grid_of("contact", 1)
-    }
-    depths = (LILIBOT.contact.damping_depth, 1e-6)
-    assert cells == {(depth, n) for depth in depths for n in (8, 16, 32, 64, 128, 256)}
-    assert depths[0] == contact.GRADUAL and depths[1] == contact.SUDDEN
-
-
 def test_chosen_values_methods_and_duration() -> None:
     trials = grid_of("mi", 1, ["tegotae"], {"mi": ["0.1", "0.1", 0.3]}, 5.0)
     assert [(t.experiment.method, t.experiment.mi, t.experiment.duration) for t in trials] == [
@@ -335,8 +210,7 @@ def test_methods_of_all_leave_the_others_alone() -> None:
         (("mi", 1, None, {"mi": [9.0]}), "mi = 9.0 is not in"),
         (("mi", 1, None, {"rate": [5.0]}), "rate is no axis of 'mi'; allowed: mi"),
         (("damage", 1, None, {"mi": [5.0]}), "mi is no axis of 'damage'; allowed: none"),
-        (("sensitivity", 1, None, {"change": ["moon"]}), "change 'moon' is not one of nothing, "),
-        (("contact", 1, None, {"steps": ["9"]}), "steps '9' is not one of 8, 16"),
+        (("conditions", 1, None, {"condition": ["C9"]}), "condition 'C9' is not one of C1, "),
         (("mi", 1, None, None, -1.0), "duration = -1"),
     ],
 )
@@ -356,4 +230,4 @@ def test_the_robot_asked_for_walks_with_its_own_numbers() -> None:
 
 def test_options_of_the_registry_are_those_of_the_grid() -> None:
     for name, entry in STUDIES.items():
-        assert set(entry.options) - {"methods", "robot"} == set(load(name).axes)
+        assert set(entry.options) - {"methods", "robot"} == set(load(STUDIES[name]).axes)

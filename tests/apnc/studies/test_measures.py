@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -13,13 +12,12 @@ from numpy.typing import NDArray
 from records import TRIPOD, TROT, outputs, synthetic_record
 
 from apnc.loop.record import End, Record
-from apnc.studies import contact, forward_model, gains, mi, steering, symmetry
-from apnc.studies.contact.measure import Trot, chatter, errors, touch_down
+from apnc.studies import gains, mi, steering
 from apnc.studies.engine import measured
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import Row
 from apnc.studies.states.measure import as_paper_says, judge, measure
 from apnc.studies.states.timeline import TIMELINE, Timeline
-from apnc_plant.options import PlantOptions
 
 Array = NDArray[np.float64]
 PRONK = (0.0, 0.0, 0.0)
@@ -279,7 +277,7 @@ def test_a_section_not_walked_to_its_end_has_no_speed() -> None:
     assert set(row.values()) == {None}
 
 
-# --- gains and symmetry ------------------------------------------------------------------------
+# --- gains -------------------------------------------------------------------------------------
 
 
 def test_an_oscillator_that_hardly_moves_at_the_end_has_stopped() -> None:
@@ -350,130 +348,11 @@ def test_never_is_later_than_any_time() -> None:
     assert gains.best_setting(rows) == 0.1
 
 
-def test_legs_part_when_one_leaves_the_phase_of_another() -> None:
-    assert symmetry.measure(synthetic_record(20.0))["parted_at_s"] == pytest.approx(0.0)
-    later = states_record(((0.0, PRONK), (5.0, TROT)))
-    # the phases are smoothed over 1.5 s
-    assert symmetry.measure(later)["parted_at_s"] == pytest.approx(5.0, abs=0.8)
-    assert symmetry.measure(states_record(((0.0, PRONK),)))["parted_at_s"] is None
-
-
-# --- contact -----------------------------------------------------------------------------------
-
-
-def test_chatter_is_the_share_of_loaded_steps_that_turn_round() -> None:
-    forces = np.zeros((102, 1, 3))
-    forces[:, 0, 2] = 5.0
-    assert chatter(forces) == 0.0
-    forces[::2, 0, 0] = 1.0
-    assert chatter(forces) == 1.0
-    forces[:, 0, 0], forces[::2, 0, 1] = 0.0, 0.09  # too small
-    assert chatter(forces) == 0.0
-    forces[::2, 0, 1] = -1.0
-    assert chatter(forces) == 1.0
-    forces[51:, 0, 2] = 0.9  # hardly loaded
-    forces[:51, 0, 1] = 0.0
-    assert chatter(forces) == 0.0
-
-
-def test_only_lateral_forces_that_turn_sharply_both_ways_chatter() -> None:
-    forces = np.zeros((102, 1, 3))
-    forces[:, 0, 2] = 1.5  # loaded
-    forces[::2, 0, 2] += 1.0  # vertical
-    forces[:, 0, 0] = np.cumsum(np.where(np.arange(102) % 2, 1.0, -0.05))
-    assert chatter(forces) == 0.0
-    forces[::2, 0, 1] = 1.0
-    assert chatter(forces) == 1.0
-
-
-def test_a_force_that_turns_once_does_not_chatter() -> None:
-    forces = np.zeros((100, 1, 3))
-    forces[:, 0, 2] = 5.0
-    forces[50:, 0, 0] = 1.0
-    assert chatter(forces) == 0.0
-
-
-def trot_of(vertical: Array, place: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Trot:
-    forces = np.zeros((*vertical.shape, 3))
-    forces[..., 2] = vertical
-    return Trot(forces, np.array(place))
-
-
-def test_errors_are_relative_to_the_finest_step() -> None:
-    level = np.repeat([[10.0], [20.0], [0.0]], 40, axis=0)  # by tick
-    fine = np.repeat(level, 256, axis=0) * np.ones(4)
-    coarse = 1.1 * np.repeat(level, 16, axis=0) * np.ones(4)
-    found = errors(trot_of(coarse, (1.0, 3e-3, 4e-3)), trot_of(fine, (1.0, 0.0, 0.0)))
-    assert found["force_error"] == pytest.approx(0.1)
-    assert found["tick_force_error"] == pytest.approx(0.1)
-    assert found["peak_N"] == pytest.approx(22.0)
-    assert found["distance_error_mm"] == pytest.approx(5.0)
-    assert found["chatter"] == 0.0
-
-
-def test_errors_compare_at_the_ends_of_the_coarsest_steps() -> None:
-    ticks = 120
-    own = np.full((ticks, 16, 1), 10.0)
-    own[:, 0::2] = 14.0  # at the beginning of each of the eight steps, not at its end
-    fine = np.full((ticks * 256, 1), 10.0)
-    found = errors(trot_of(own.reshape(-1, 1)), trot_of(fine))
-    assert found["force_error"] == 0.0
-    assert found["tick_force_error"] == pytest.approx(0.2)  # the mean is 12
-    own[:, 1] = 18.0  # at the end of the first of eight
-    found = errors(trot_of(own.reshape(-1, 1)), trot_of(fine))
-    assert found["force_error"] == pytest.approx(0.8 / np.sqrt(8.0))
-
-
-def test_contact_is_measured_with_the_step_of_the_walk(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[tuple[float, int]] = []
-
-    def trot(depth: float, steps: int) -> Trot:
-        asked.append((depth, steps))
-        return trot_of(np.full((120 * steps, 4), 12.0 if steps == 16 else 10.0))
-
-    contact_measure = importlib.import_module("apnc.studies.contact.measure")
-    monkeypatch.setattr(contact_measure, "trot", trot)
-    experiment = contact.experiment("apnc", 0, 1e-6, 16)
-    record = replace(synthetic_record(30.0), experiment=experiment, wall_s=3.0)
-    record = replace(record, robot=experiment.description)
-    row = contact_measure.measure(record)
-    assert asked == [(1e-6, 16), (1e-6, 256)]
-    assert row["step_ms"] == pytest.approx(1e3 / 60 / 16)
-    assert row["real_time_factor"] == pytest.approx(10.0)
-    assert row["force_error"] == pytest.approx(0.2)
-    assert set(row) >= {"peak_N", "tick_force_error", "chatter", "distance_error_mm"}
-
-
-def test_the_default_step_is_fine_enough_for_forces() -> None:
-    contact_measure = importlib.import_module("apnc.studies.contact.measure")
-    steps = round(contact_measure.TICK / PlantOptions().step)
-    own, finest = (contact_measure.trot(contact.GRADUAL, n) for n in (steps, 256))
-    assert contact.fine_enough(errors(own, finest))
-    assert not contact.fine_enough(errors(contact_measure.trot(contact.GRADUAL, 8), finest))
-
-
-def test_the_table_says_which_step_is_fine_enough() -> None:
-    row = {"depth": 2e-4, "step_ms": 1.042, "force_error": 0.05, "chatter": 0.01}
-    rows = [row, row | {"force_error": 0.051}, row | {"chatter": 0.011}, {"depth": 2e-4}]
-    lines = contact.table(rows).splitlines()[2:]
-    assert [line.split(" | ")[-1] for line in lines] == ["yes |", "no |", "no |"]
-    assert lines[0].startswith("| 0.2 | 1.042 | - | - | 5.0 | 1.00 |")
-
-
-def test_touch_down_is_the_first_rise_from_zero() -> None:
-    force = np.zeros((400, 2))
-    force[:50, 0], force[100:200, 0], force[10:, 1] = 5.0, 7.0, 9.0
-    time, shown = touch_down(trot_of(force), 32)
-    assert len(time) == len(shown) == 8 + 64
-    assert time[8] == 0.0 and shown[8] == 0.0 and shown[9] == 7.0
-    assert time[9] == pytest.approx(1e3 / 60 / 32)
-
-
 # --- rows --------------------------------------------------------------------------------------
 
 
 def test_a_row_has_the_summary_and_how_the_run_ended() -> None:
-    row = measured("mi", synthetic_record(20.0))
+    row = measured(STUDIES["mi"], synthetic_record(20.0))
     assert row["converged"] is True and row["convergence_time_s"] == pytest.approx(0.0, abs=0.1)
     assert row["phi_final_12"] == pytest.approx(np.pi, abs=0.01)
     assert row["phi_final_14"] == pytest.approx(0.0, abs=0.01)
@@ -487,11 +366,11 @@ def test_a_row_has_the_summary_and_how_the_run_ended() -> None:
 
 
 def test_a_fall_and_a_divergence_are_told_in_the_row() -> None:
-    fell = measured("mi", replace(synthetic_record(20.0), end=End.fell))
+    fell = measured(STUDIES["mi"], replace(synthetic_record(20.0), end=End.fell))
     assert fell["end"] == "fell" and fell["fell"] is True and fell["error"] == ""
     assert fell["convergence_time_s"] is None
     broken = replace(synthetic_record(5.0), end=End.diverged, message="it diverged")
-    assert measured("mi", broken)["error"] == "it diverged"
+    assert measured(STUDIES["mi"], broken)["error"] == "it diverged"
 
 
 @pytest.mark.parametrize(
@@ -513,31 +392,3 @@ def test_a_gait_that_is_not_settled_or_fell_has_no_name() -> None:
     assert mi.measure(on_the_way) == {mi.GAIT: "unsettled"}
     fell = replace(synthetic_record(20.0), end=End.fell)
     assert mi.measure(fell) == {mi.GAIT: None}
-
-
-# --- forward models ----------------------------------------------------------------------------
-
-
-def learned(stored: float, duration: float = 25.0) -> Record:
-    """A walk whose K_f + K_s is 0.1 on half of the legs until kappa = 1, and 0.02 on all after."""
-    base = synthetic_record(duration)
-    on = base.time >= stored
-    K = np.where(on[:, None], 0.01, [0.05, 0.0, 0.05, 0.0])
-    experiment = replace(base.experiment, duration=duration)
-    controller = base.controller | {"K_f": K, "K_s": K, "kappa": 1.0 * on}
-    return replace(base, experiment=experiment, controller=controller)
-
-
-def test_the_gain_is_that_of_equation_9_before_and_late() -> None:
-    found = forward_model.measure(learned(6.0))
-    assert found == pytest.approx({"gain_forming": 0.05, "gain_late": 0.02})
-
-
-@pytest.mark.parametrize("stored", [0.0, 21.0, 99.0])
-def test_no_gain_without_a_before_and_a_late_part(stored: float) -> None:
-    assert forward_model.measure(learned(stored)) == {"gain_forming": None, "gain_late": None}
-
-
-def test_no_gain_of_a_run_that_fell() -> None:
-    fell = replace(learned(6.0), end=End.fell)
-    assert forward_model.measure(fell) == {"gain_forming": None, "gain_late": None}

@@ -8,10 +8,11 @@ import pytest
 from browser import console_lines, look, needs_browser
 
 import apnc_core
-from apnc.studies import engine, report
+from apnc.studies import report
 from apnc.studies.engine import grid_of
+from apnc.studies.registry import STUDIES
 from apnc.studies.rows import AUTHORS, STRICT, Row
-from apnc.studies.study import Trial
+from apnc.studies.study import Trial, load
 
 
 def rows_of(grid: list[Trial]) -> list[Row]:
@@ -111,7 +112,7 @@ def test_scenes_are_drawn_when_all_is_there(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     trials = grid_of("damage", 1, robot="hexapod")
-    study = engine.load("damage")
+    study = load(STUDIES["damage"])
     asked: list[str] = []
     object.__setattr__(study, "scenes", lambda robot: asked.append(robot) or [])
     try:

@@ -1,1 +1,0 @@
-"""What a tick costs, measured side by side in one run."""

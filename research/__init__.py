@@ -1,0 +1,1 @@
+"""Studies of the model itself, and what writes the documentation; see README.md."""

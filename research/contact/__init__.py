@@ -1,0 +1,121 @@
+"""Which integration step is fine enough: it is halved until nothing moves any more."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from apnc.loop.engines import OWN_ENGINE
+from apnc.loop.experiment import Experiment
+from apnc.report import theme
+from apnc.report.encoding import float32
+from apnc.report.figure import Figure, Trace
+from apnc.report.panels import line
+from apnc.studies.plots import COLOURS
+from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
+from apnc.studies.study import WALK_MI, Robot, Study
+from apnc.studies.table import markdown
+from research.contact.measure import (
+    GRADUAL,
+    STEPS,
+    SUDDEN,
+    TICK,
+    measure,
+    robot,
+    touch_down,
+    trot,
+)
+from research.registry import STUDIES
+
+MAX_FORCE_ERROR: Final = 0.05
+"""Largest force error of a step that is fine enough."""
+
+MAX_CHATTER: Final = 0.01
+"""Largest chatter of a step that is fine enough."""
+
+
+def experiment(method: str, seed: int, depth: float, steps: int) -> Experiment:
+    """A walk with a damping depth [m] of the feet and so many integration steps per tick."""
+    own, step = robot(depth), TICK / steps
+    return Experiment(robot=own, method=method, seed=seed, mi=WALK_MI, duration=30.0, step=step)
+
+
+def table(rows: Sequence[Row]) -> str:
+    """A line per law of damping and step, and whether the step is fine enough."""
+    return markdown(_line(row) for row in rows if is_number(row.get("force_error")))
+
+
+def _line(row: Row) -> dict[str, str]:
+    shown: dict[str, str] = {}
+    for title, column, scale, form in (
+        ("damping depth [mm]", "depth", 1e3, "g"),
+        ("step [ms]", "step_ms", 1.0, ".3f"),
+        ("real time", "real_time_factor", 1.0, ".0f"),
+        ("peak force [N]", "peak_N", 1.0, ".0f"),
+        ("force error [%]", "force_error", 100.0, ".1f"),
+        ("chatter [%]", "chatter", 100.0, ".2f"),
+        ("place [mm]", "distance_error_mm", 1.0, ".2f"),
+        ("trot after [s]", STRICT, 1.0, ".2f"),
+        ("speed [m/s]", "late_speed_m_per_s", 1.0, ".4f"),
+        ("duty", "duty_factor_mean", 1.0, ".3f"),
+        ("COT", "cost_of_transport", 1.0, ".3f"),
+    ):
+        value = row.get(column)
+        shown[title] = f"{scale * float(value):{form}}" if value is not None else "-"
+    return shown | {TARGET: "yes" if fine_enough(row) else "no"}
+
+
+TARGET: Final = f"error <= {100 * MAX_FORCE_ERROR:g} %, chatter <= {100 * MAX_CHATTER:g} %"
+
+
+def fine_enough(row: Row) -> bool:
+    """Whether force error and chatter of a step are within what is asked."""
+    return bool(row["force_error"] <= MAX_FORCE_ERROR and row["chatter"] <= MAX_CHATTER)
+
+
+def figures(rows: Sequence[Row]) -> list[Figure]:
+    """Force error and chatter over the step, for each law of damping."""
+    data: list[Trace] = []
+    for depth in cells_in(rows, "depth"):
+        for column, words in (("force_error", "force error"), ("chatter", "chatter")):
+            shown = [row for row in matching(rows, depth=depth) if row.get(column)]
+            y = np.array([row[column] for row in shown])
+            x = {"x": [row["step_ms"] for row in shown], "mode": "lines+markers"}
+            label = f"{words}, damping depth {1e3 * depth:g} mm"
+            data.append(line(y, label, COLOURS[len(data) % len(COLOURS)]) | x)
+    axes = {"xaxis": theme.axis("step [ms]", type="log"), "hovermode": "closest"}
+    layout = theme.layout(380, yaxis=theme.axis("error, chatter [1]", type="log"), **axes)
+    note = "Open-loop trot against the finest step. Zero does not show."
+    return [Figure("contact-error", "Error over the step", note, data, layout, over_time=False)]
+
+
+def scenes(_: Robot) -> list[Figure]:
+    """Force under a foot of Lilibot at its first touch-down, by law of damping and step."""
+    data = []
+    laws = ((SUDDEN, STEPS[-1]), (GRADUAL, STEPS[-1]), (GRADUAL, 32), (GRADUAL, 16))
+    for (depth, steps), colour in zip(laws, COLOURS, strict=False):
+        time, force = touch_down(trot(depth, steps), steps)
+        label = f"{1e3 * TICK / steps:.3g} ms, damping depth {1e3 * depth:g} mm"
+        data.append(line(force, label, colour) | {"x": float32(time)})
+    layout = theme.layout(
+        340,
+        xaxis=theme.axis("time from touch-down [ms]"),
+        yaxis=theme.axis("vertical force on foot RF [N]"),
+    )
+    note = "Of the open-loop trot."
+    return [Figure("contact-force", "First touch-down", note, data, layout, over_time=False)]
+
+
+STUDY: Final = Study(
+    STUDIES["contact"],
+    experiment,
+    {"depth": (GRADUAL, SUDDEN), "steps": STEPS},
+    methods=("apnc",),
+    measure=measure,
+    figures=figures,
+    scenes=scenes,
+    table=table,
+    engine=OWN_ENGINE,
+)

@@ -1,0 +1,125 @@
+"""What each departure from the paper buys: taken back alone, the walk is judged again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment, Setting
+from apnc.loop.record import Record
+from apnc.studies.rows import Row, matching, successes, values
+from apnc.studies.states.measure import STOPPED
+from apnc.studies.states.measure import measure as judged
+from apnc.studies.states.timeline import TIMELINE
+from apnc.studies.study import COURSE_MI, WALK_MI, Study
+from apnc.studies.table import markdown, middle
+from apnc_core.schema import Causality
+from apnc_core.variables import rows as variables
+from research.command import main
+from research.registry import STUDIES
+
+TOGETHER: Final = (
+    ("a2",), ("b1", "b2"), ("B_f", "B_s"), ("o1_start", "o2_start"), ("xi",), ("feedback_kept",),
+    ("phase_measure",), ("phase_filter",), ("kappa_rule",), ("coupling_sign",), ("phi_frozen",),
+    ("MI_zero_resets",),
+)  # fmt: skip
+"""Parameters that differ from the paper or the authors' code, those that belong together in one."""
+
+PRINTED: Final[Mapping[str, Setting]] = {
+    v.name: v.paper
+    for v in variables(Causality.parameter)
+    if v.paper is not None and v.paper != v.start
+}
+
+NONE: Final = "none"
+
+REMOVED: Final[Mapping[str, Mapping[str, Setting]]] = {
+    NONE: {},
+    **{
+        ", ".join(own): {name: PRINTED[name] for name in own}
+        for names in TOGETHER
+        if (own := [name for name in names if name in PRINTED])
+    },
+}
+"""Parameters as printed, by the departure that is taken back."""
+
+WALKS: Final[Mapping[str, Mapping[str, Any]]] = {
+    "MI 0.08": {"mi": 0.08},
+    "MI 0.15": {"mi": 0.15},
+    "MI 0.28": {"mi": 0.28},
+    "C4": {"mi": WALK_MI, "conditions": "C4"},
+    "C3": {"mi": COURSE_MI, "conditions": "C3"},
+}
+"""Walks by name: what of the experiment is asked for."""
+
+STATES: Final = "S1 to S3"
+STOP_MOVES: Final = "moves_at_mi_zero"
+WALK_S: Final = 25.0
+"""Length of the walks [s]."""
+
+
+def experiment(method: str, seed: int, removed: str, task: str) -> Experiment:
+    """A walk, or the run through the states S1 to S3, without one departure."""
+    if task == STATES:
+        return TIMELINE.experiment(method, seed, settings=REMOVED[removed])
+    walk: dict[str, Any] = {"method": method, "seed": seed, "settings": REMOVED[removed]}
+    return Experiment(duration=WALK_S, **walk, **WALKS[task])
+
+
+def measure(record: Record) -> Row:
+    """What became of the gait in S1 to S3, for the run through them.
+
+    Returns:
+        The figures of the states, and ``moves_at_mi_zero``: whether an oscillator moves in the last
+        second of MI = 0.
+    """
+    if not isinstance(record.experiment.mi, tuple):
+        return {}
+    time, o1 = record.time, record.controller["o1"]
+    late = o1[(time >= TIMELINE.restarted - 1.0) & (time < TIMELINE.restarted)]
+    moves = bool((np.ptp(late, axis=0) >= STOPPED).any()) if len(late) else None
+    return judged(record) | {STOP_MOVES: moves}
+
+
+def table(rows: Sequence[Row]) -> str:
+    """A line per departure: runs that form the strict trot, a speed, runs through S1 to S3."""
+    return markdown(_line(removed, matching(rows, removed=removed)) for removed in _in_order(rows))
+
+
+def _in_order(rows: Sequence[Row]) -> list[str]:
+    return list(dict.fromkeys(row["removed"] for row in rows))
+
+
+def _line(removed: str, rows: Sequence[Row]) -> dict[str, str]:
+    names = REMOVED[removed]
+    entries = {"as printed": ", ".join(f"{n} = {_text(v)}" for n, v in names.items()) or NONE}
+    for task in WALKS:
+        hits = successes(matching(rows, task=task))
+        entries[f"trot, {task}"] = f"{sum(hits)}/{len(hits)}"
+    speeds = values(matching(rows, task="MI 0.15"), "late_speed_m_per_s")
+    entries["speed at MI 0.15 [m/s]"] = middle(speeds, 3)
+    runs = matching(rows, task=STATES)
+    for state in ("S1", "S2", "S3"):
+        entries[state] = f"{sum(bool(run.get(f'state_{state}')) for run in runs)}/{len(runs)}"
+    stops = [run.get(STOP_MOVES) is False for run in runs]
+    entries["stops at MI = 0"] = f"{sum(stops)}/{len(stops)}"
+    return entries
+
+
+def _text(value: Setting) -> str:
+    return str(getattr(value, "name", value))
+
+
+STUDY: Final = Study(
+    STUDIES["departures"],
+    experiment,
+    {"removed": tuple(REMOVED), "task": (*WALKS, STATES)},
+    methods=("apnc",),
+    measure=measure,
+    table=table,
+)
+
+if __name__ == "__main__":
+    main(STUDY.name)

@@ -1,0 +1,71 @@
+"""Write record.md, the page of the columns of record.csv, from the table of variables and channels.
+
+python -m research.docs.record
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record, column_names
+from apnc_core.schema import Causality, Shape
+from apnc_core.variables import TABLE
+from apnc_plant.channels import PLANT_CHANNELS
+from research.docs import DOCS
+
+HEAD = """# record.csv
+
+One row per tick of the controller, every quantity of the run, SI units throughout; read it with
+`pandas.read_csv("record.csv")` or `numpy.genfromtxt("record.csv", delimiter=",", names=True)`. A
+name with a comma in it stands in quotation marks, as in any CSV; pandas and the module `csv` read
+that. The units stand in `summary.json` as well, under `columns`.
+
+- `LEG.` stands for the name of each leg in the order of the robot, e.g. `RF.o1`, `RH.o1`; `1k` for
+  the relation of leg 1 and leg k, counted in that order: `phi12`, `phi13`, `phi14`.
+- A row shows what the controller read at the start of its tick (loads, commands), what it answered,
+  and the robot at that moment, before it has followed the answer.
+- Frames. World: x forward at the start, y to the left, z up, level on a slope, too. Reference pose:
+  the pose of the robot file, where every joint angle is 0.
+- Signs of the controller. `theta_hip`, `theta_knee` as `joint_angle`; `phi1k`, `phi_memory1k`
+  positive where leg k is ahead of leg 1; `turn` positive to the left. Booleans are 0 or 1.
+
+| column | unit | frame | meaning | positive |
+|---|---|---|---|---|
+"""
+
+
+def page() -> str:
+    """Text of the page."""
+    lines: dict[str, str] = {}
+    for column in column_names(_empty()):
+        name = column.name.replace("RF.", "LEG.")
+        if name.endswith("12"):
+            name = name.removesuffix("2") + "k"
+        elif name.startswith(("RH.", "LF.", "LH.")) or name.endswith(("13", "14")):
+            continue
+        cells = (f"`{name}`", column.unit, column.frame, column.description, column.sign)
+        lines[name] = f"| {' | '.join(cell.replace('|', '&#124;') or '–' for cell in cells)} |"
+    return HEAD + "\n".join(lines.values()) + "\n"
+
+
+def _empty() -> Record:
+    """A record of no tick with every channel."""
+    experiment = Experiment()
+    robot = experiment.description
+    n = len(robot.legs)
+    widths = {Shape.scalar: (), Shape.leg: (n,), Shape.relation: (n - 1,)}
+    shown = [v for v in TABLE if v.causality is not Causality.parameter]
+    return Record(
+        legs=tuple(leg.name for leg in robot.legs),
+        time=np.empty(0),
+        plant={channel.name: np.empty((0, *channel.shape(n))) for channel in PLANT_CHANNELS},
+        controller={v.name: np.empty((0, *widths[v.shape])) for v in shown},
+        mass=robot.mass,
+        experiment=experiment,
+        robot=robot,
+    )
+
+
+if __name__ == "__main__":
+    (DOCS / "record.md").write_text(page(), encoding="utf-8")

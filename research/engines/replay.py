@@ -1,0 +1,43 @@
+"""The same commands in all engines: they stay together up to rounding."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from apnc.loop.engines import OWN_ENGINE, plant_in
+from apnc_plant.robot import load_robot
+from research.contact.measure import TICK, commands
+
+Array = NDArray[np.float64]
+
+LENGTH: Final = 10.0
+"""Length of a replay [s]."""
+
+
+def path_of(engine: str, length: float = LENGTH) -> Array:
+    """Place of the trunk after every tick of the open-loop trot [m], shape (ticks, 3).
+
+    Args:
+        engine: of the plant.
+        length: of the trot [s].
+    """
+    plant = plant_in(engine)(load_robot("lilibot"))
+    trace = plant.trace()
+    for tick in range(round(length / TICK)):
+        plant.advance(*commands(tick), TICK)
+        trace.take()
+    return np.asarray(trace.channels()["position"])
+
+
+def distances(engine: str, length: float = LENGTH) -> Array:
+    """Distance between the trunks in an engine and in Exudyn after every tick [m].
+
+    Args:
+        engine: that is compared.
+        length: of the trot [s].
+    """
+    own, its = path_of(OWN_ENGINE, length), path_of(engine, length)
+    return np.asarray(np.linalg.norm(own - its, axis=1))

@@ -1,0 +1,148 @@
+"""Section 2.1.2: the joint whose copy the forward model takes, or kernels that learn the load."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
+from apnc.report.figure import Figure
+from apnc.studies.claims import NO, Claim, Finding, Rule, both_criteria, verdict
+from apnc.studies.plots import CRITERIA, side_by_side
+from apnc.studies.rows import AUTHORS, SPEED, STRICT, Row, cells_in, matching, successes, values
+from apnc.studies.statistics import median, rate
+from apnc.studies.study import Study
+from apnc.studies.table import markdown, middle
+from apnc_core.enumerations import ForwardModel
+from research.command import main
+from research.registry import STUDIES
+
+MODELS: Final = {
+    ForwardModel.low_pass_hip.name: "Eq. 10-11, hip",
+    ForwardModel.low_pass_knee.name: "Eq. 10-11, knee",
+    ForwardModel.radial_basis.name: "radial basis",
+}
+"""How a model is called in figures and tables, by its item."""
+
+PRINTED, RADIAL = ForwardModel.low_pass_hip.name, ForwardModel.radial_basis.name
+
+LAST: Final = 5.0
+"""Last part of a walk over which its gain is a mean [s]."""
+
+FORMING, LATE = "gain_forming", "gain_late"
+
+
+def experiment(method: str, seed: int, model: str, mi: float) -> Experiment:
+    """A walk with a forward model."""
+    settings = {"forward_model": ForwardModel[model]}
+    return Experiment(method=method, seed=seed, mi=mi, duration=25.0, settings=settings)
+
+
+def measure(record: Record) -> Row:
+    """Gain of Eq. 9, mean over the legs: until the couplings switch on, and over the last 5 s.
+
+    ``feedback_kept`` does not count. None if they never do, or have not by then, or for a run that
+    ended early.
+    """
+    gain = (record.controller["K_f"] + record.controller["K_s"]).mean(axis=1)
+    on, begin = record.controller["kappa"] > 0.0, record.experiment.duration - LAST
+    first = float(record.time[on.argmax()]) if on.any() else np.inf
+    if not record.complete or first > begin or on[:1].any():
+        return {FORMING: None, LATE: None}
+    forming, late = record.time < first, record.time >= begin
+    return {FORMING: float(gain[forming].mean()), LATE: float(gain[late].mean())}
+
+
+def forms(model: str) -> Rule:
+    """Every trial with a model forms the gait; nine of ten are 'partly'."""
+
+    def check(rows: Sequence[Row], column: str) -> Finding:
+        hits = rate(successes(rows, column, model=model))
+        own, printed = (median(values(rows, column, model=m)) for m in (model, PRINTED))
+        text = f"{hits}, {own.text(1, 's')}, with the hip's {printed.text(1, 's')}"
+        return Finding(text, verdict(hits.value == 1.0, hits.value >= 0.9))
+
+    return both_criteria(check)
+
+
+def gain_falls(model: str) -> Rule:
+    """The interval of the gain, late over forming, ends below a half; below 1 is 'partly'."""
+
+    def rule(rows: Sequence[Row]) -> Finding:
+        both = [r for r in matching(rows, model=model) if r.get(FORMING) and r.get(LATE)]
+        forming, late = (median(values(both, column)) for column in (FORMING, LATE))
+        ratio = median([row[LATE] / row[FORMING] for row in both])
+        text = f"{forming.text(3)}, late {late.text(3)}, ratio {ratio.text(2)}, n = {ratio.size}"
+        if not both:
+            return Finding(text, NO)
+        return Finding(text, verdict(ratio.high <= 0.5, ratio.high < 1.0))
+
+    return rule
+
+
+def figures(rows: Sequence[Row]) -> list[Figure]:
+    """Times, speed, and the gain while the gait forms and late, by model and MI."""
+    cells = [(label, name, mi) for name, label in MODELS.items() for mi in cells_in(rows, "mi")]
+
+    def by_cell(column: str) -> dict[str, list[float]]:
+        return {f"{label}, {mi:g}": values(rows, column, model=m, mi=mi) for label, m, mi in cells}
+
+    shown = (
+        (STRICT, "Convergence, strict", CRITERIA[STRICT], "convergence time [s]"),
+        (AUTHORS, "Convergence, authors'", CRITERIA[AUTHORS], "convergence time [s]"),
+        (SPEED, "Speed", "along the path", "speed [m/s]"),
+        (FORMING, "Gain until the couplings switch on", "K_f + K_s of Eq. 9", "gain"),
+        (LATE, "Gain in the last 5 s", "K_f + K_s of Eq. 9", "gain"),
+    )
+    return [
+        side_by_side(f"forward_model-{column}", title, f"By model and MI; {note}.", unit, found)
+        for column, title, note, unit in shown
+        if any((found := by_cell(column)).values())
+    ]
+
+
+def table(rows: Sequence[Row]) -> str:
+    """A line per model and MI: medians, smallest and largest."""
+    return markdown(
+        {
+            "forward model": label,
+            "MI": f"{mi:.2f}",
+            "strict trot (95 % interval)": str(rate(successes(own))),
+            "strict time [s]": middle(values(own, STRICT), 1),
+            "authors' time [s]": middle(values(own, AUTHORS), 1),
+            "speed [m/s]": middle(values(own, SPEED), 3),
+            "gain until kappa = 1": middle(values(own, FORMING), 3),
+            "gain in the last 5 s": middle(values(own, LATE), 3),
+        }
+        for model, label in MODELS.items()
+        for mi in cells_in(rows, "mi")
+        if (own := matching(rows, model=model, mi=mi))
+    )
+
+
+CLAIMS: Final = (
+    Claim("2.1.2", "the knee's copy lets the load be expected",
+          forms(ForwardModel.low_pass_knee.name)),
+    Claim("2.1.2", "a radial basis function network can be the forward model", forms(RADIAL)),
+    Claim("3.2.1, 4.3", "gamma becomes small once the gait has formed: radial basis, of itself",
+          gain_falls(RADIAL)),
+    Claim("3.2.1, 4.3", "gamma becomes small once the gait has formed: Eq. 10-11, of itself",
+          gain_falls(PRINTED)),
+)  # fmt: skip
+
+STUDY: Final = Study(
+    STUDIES["forward_model"],
+    experiment,
+    {"model": tuple(MODELS), "mi": (0.08, 0.15, 0.24)},
+    methods=("apnc",),
+    measure=measure,
+    claims=CLAIMS,
+    figures=figures,
+    table=table,
+)
+
+if __name__ == "__main__":
+    main(STUDY.name)

@@ -1,0 +1,22 @@
+"""Which studies there are beside those of the product; nothing heavy is imported here."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from apnc.studies.registry import ROBOT, Entry, Registry
+
+STUDIES: Final[Registry] = {
+    entry.name: entry
+    for entry in (
+        Entry("symmetry", "Equal loads", "4.1.1", ("mi",), "research"),
+        Entry("departures", "Departures taken back", "", ("removed", "task"), "research"),
+        Entry("sensitivity", "Numbers of the robot", "", ("change", "mi"), "research"),
+        Entry("forward_model", "Forward models", "", ("model", "mi"), "research"),
+        Entry("engines", "Three engines", "", (ROBOT, "engine", "mi"), "research"),
+        Entry(
+            "contact", "Integration step of the ground contact", "", ("depth", "steps"), "research"
+        ),
+    )
+}
+"""By name."""

@@ -1,0 +1,152 @@
+"""How sure must a number of the robot be? Each is changed alone, and the walk is judged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment
+from apnc.studies.robots import changed, constant
+from apnc.studies.rows import SPEED, STRICT, Row, cells_in, is_number, matching, values
+from apnc.studies.study import WALK_S, Study
+from apnc.studies.table import markdown, middle
+from apnc_plant.robot import RobotDescription, load_robot
+from research.command import main
+from research.registry import STUDIES
+
+Change = Callable[[RobotDescription], RobotDescription]
+
+
+def _set(path: str, value: Any) -> Change:
+    return lambda robot: changed(robot, path, constant(value))
+
+
+def _times(path: str, factor: float) -> Change:
+    return lambda robot: changed(robot, path, lambda value: factor * value)
+
+
+def _shifted(ahead: float = 0.0, up: float = 0.0) -> Change:
+    """The centre of mass of the trunk moved [m]."""
+    return lambda robot: changed(
+        robot, "trunk.body.com", lambda com: (com[0] + ahead, com[1], com[2] + up)
+    )
+
+
+def _lighter_tibiae(moved: float) -> Change:
+    """Mass moved from each tibia to its femur [kg]."""
+
+    def leg(own: Any) -> Any:
+        heavier = changed(own, "femur.mass", lambda mass: mass + moved)
+        return changed(heavier, "tibia.mass", lambda mass: mass - moved)
+
+    return lambda robot: changed(robot, "legs", lambda legs: tuple(map(leg, legs)))
+
+
+def _soft(robot: RobotDescription) -> RobotDescription:
+    return _set("servo.damping", 1.5)(_set("servo.stiffness", 12.0)(robot))
+
+
+SOFT: Final = "soft servos: P 12 and D 1.5"
+
+CHANGES: Final[Mapping[str, Change]] = {
+    "nothing": lambda robot: robot,
+    "foot stiffness x 0.7": _times("contact.stiffness", 0.7),
+    "foot stiffness x 1.3": _times("contact.stiffness", 1.3),
+    "foot damping x 0.7": _times("contact.damping", 0.7),
+    "foot damping x 1.3": _times("contact.damping", 1.3),
+    "damping depth x 0.5": _times("contact.damping_depth", 0.5),
+    "damping depth x 2": _times("contact.damping_depth", 2.0),
+    "friction 0.5": _set("contact.friction", 0.5),
+    "friction 1.0": _set("contact.friction", 1.0),
+    "friction speed x 0.7": _times("contact.friction_speed", 0.7),
+    "friction speed x 1.5": _times("contact.friction_speed", 1.5),
+    "P x 0.8": _times("servo.stiffness", 0.8),
+    "P x 1.2": _times("servo.stiffness", 1.2),
+    "D x 0.8": _times("servo.damping", 0.8),
+    "D x 1.2": _times("servo.damping", 1.2),
+    SOFT: _soft,
+    "reflected inertia x 0.7": _times("servo.reflected_inertia", 0.7),
+    "reflected inertia x 2": _times("servo.reflected_inertia", 2.0),
+    "servo latency 5 ms": _set("servo.latency", 0.005),
+    "servo latency 16.7 ms": _set("servo.latency", 1 / 60),
+    "trunk's centre of mass 10 mm higher": _shifted(up=0.010),
+    "10 mm lower": _shifted(up=-0.010),
+    "5 mm further ahead": _shifted(ahead=0.005),
+    "5 mm further back": _shifted(ahead=-0.005),
+    "25 g from each tibia to its femur": _lighter_tibiae(0.025),
+    "sensor delay x 0.7": _times("sensor.delay", 0.7),
+    "sensor delay x 1.5": _times("sensor.delay", 1.5),
+    "sensor noise x 3": _times("sensor.noise", 3.0),
+    "sensor shows the norm": _set("sensor.component", "norm"),
+}
+"""What is changed, by the name it has in the table."""
+
+
+OVER_MI: Final = ("nothing", SOFT)
+"""What walks at further MI, too: does the duty factor grow with MI, as in the paper?"""
+
+MI_VALUES: Final = (0.08, 0.12, 0.16, 0.2, 0.24, 0.28)
+USUAL_MI: Final = (0.08, 0.16)
+DUTY: Final = "duty_factor_mean"
+
+
+def seeds(cell: Mapping[str, Any], trials: int) -> int:
+    """All, but most changes walk at two MI only."""
+    return trials if cell["mi"] in USUAL_MI or cell["change"] in OVER_MI else 0
+
+
+def experiment(method: str, seed: int, change: str, mi: float) -> Experiment:
+    """A walk of the changed robot."""
+    robot = CHANGES[change](load_robot("lilibot"))
+    return Experiment(robot=robot, method=method, seed=seed, mi=mi, duration=WALK_S)
+
+
+def table(rows: Sequence[Row]) -> str:
+    """A line per change, strict times and mean speed at every MI that all walked at.
+
+    "-" did not form. Then duty factor and speed over MI, of what walks at more than two of them.
+    """
+    changes, mis = _in_order(rows), cells_in(rows, "mi")
+    common = [mi for mi in mis if all(matching(rows, change=c, mi=mi) for c in changes)]
+    text = markdown(_line(c, matching(rows, change=c), common) for c in changes)
+    over = [c for c in changes if c in OVER_MI and len(mis) > len(USUAL_MI)]
+    return f"{text}\n{markdown(_duty(matching(rows, change=c), c) for c in over)}" if over else text
+
+
+def _duty(rows: Sequence[Row], change: str) -> dict[str, str]:
+    entries = {"change": change}
+    for mi in cells_in(rows, "mi"):
+        duty, speed = (middle(values(rows, c, mi=mi), d) for c, d in ((DUTY, 2), (SPEED, 3)))
+        entries |= {f"MI {mi:.2f}: duty factor": duty, f"MI {mi:.2f}: speed [m/s]": speed}
+    return entries
+
+
+def _in_order(rows: Sequence[Row]) -> list[str]:
+    return list(dict.fromkeys(row["change"] for row in rows))
+
+
+def _line(change: str, rows: Sequence[Row], mis: Sequence[float]) -> dict[str, str]:
+    entries = {"change": change}
+    for mi in mis:
+        own = matching(rows, mi=mi)
+        times = [row.get(STRICT) for row in own]
+        shown = (f"{time:.1f}" if is_number(time) else "-" for time in times)
+        speed = values(own, SPEED)
+        entries[f"MI {mi:.2f}: trot after [s]"] = ", ".join(shown)
+        entries[f"MI {mi:.2f}: speed [m/s]"] = f"{np.mean(speed):.3f}" if speed else "-"
+    return entries | {"fell": f"{len(matching(rows, fell=True))}/{len(rows)}"}
+
+
+STUDY: Final = Study(
+    STUDIES["sensitivity"],
+    experiment,
+    {"change": tuple(CHANGES), "mi": MI_VALUES},
+    methods=("apnc",),
+    seeds=seeds,
+    table=table,
+)
+
+if __name__ == "__main__":
+    main(STUDY.name)

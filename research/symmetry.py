@@ -1,0 +1,69 @@
+"""Section 4.1.1: with equal loads under all feet, do the legs stay in phase for ever?
+
+The robot is the same left and right and its sensors have no noise. Nothing is left that a seed
+could change, so there is one run per MI.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from apnc import metrics
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
+from apnc.studies.claims import FEW, Claim, Finding, verdict
+from apnc.studies.robots import symmetric
+from apnc.studies.rows import STRICT, Row, values
+from apnc.studies.statistics import median, of_runs
+from apnc.studies.study import WALK_S, Study
+from apnc_plant.robot import load_robot
+from research.command import main
+from research.registry import STUDIES
+
+PARTED: Final = "parted_at_s"
+
+MIN_RUNS: Final = 3
+"""Fewer MI than this give no verdict."""
+
+
+def experiment(method: str, seed: int, mi: float) -> Experiment:
+    """A walk of the symmetric robot."""
+    robot = symmetric(load_robot("lilibot"))
+    return Experiment(robot=robot, method=method, seed=seed, mi=mi, duration=WALK_S)
+
+
+def measure(record: Record) -> Row:
+    """When a leg was first more than 0.6 rad from the phase of another [s], None if never."""
+    o1, o2 = record.controller["o1"], record.controller["o2"]
+    error = metrics.phase_error(o1, o2, (0.0,) * (len(record.legs) - 1))
+    apart = record.time[error > metrics.STRICT_TOLERANCE]
+    return {PARTED: float(apart[0]) if len(apart) else None}
+
+
+def in_phase(rows: Sequence[Row]) -> Finding:
+    """The legs stay in phase at every MI; at some is 'partly'."""
+    parted, trots = values(rows, PARTED), values(rows, STRICT)
+    text = (
+        f"parted after {median(parted).text(1, 's', len(rows))}; "
+        f"trot after {median(trots).text(1, 's', len(rows))}"
+    )
+    together = len(rows) - len(parted)
+    found = verdict(together == len(rows), together > 0) if len(rows) >= MIN_RUNS else FEW
+    return Finding(f"together in {of_runs(together, len(rows))}; {text}", found)
+
+
+CLAIM: Final = "if all loads are equal the legs stay in phase and no gait forms"
+
+STUDY: Final = Study(
+    STUDIES["symmetry"],
+    experiment,
+    {"mi": (0.08, 0.12, 0.16, 0.2, 0.24)},
+    methods=("apnc",),
+    seeds=lambda cell, trials: 1,
+    measure=measure,
+    claims=(Claim("4.1.1", CLAIM, in_phase, seeds=1),),
+)
+
+if __name__ == "__main__":
+    main(STUDY.name)

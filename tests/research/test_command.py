@@ -1,0 +1,67 @@
+"""``python -m research.NAME``: every study of the registry runs from a checkout."""
+
+from __future__ import annotations
+
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from apnc.studies.engine import grid_of, run_study
+from apnc.studies.registry import STUDIES as OF_THE_PRODUCT
+from apnc.studies.study import load
+from research.registry import STUDIES
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def run(name: str, *words: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", f"research.{name}", *words]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_every_study_has_its_command_and_options(name: str) -> None:
+    done = run(name, "--help")
+    assert done.returncode == 0, done.stderr
+    assert STUDIES[name].title in done.stdout
+    for option in (*STUDIES[name].options, "trials", "resume", "workers", "scheduler", "output"):
+        assert f"--{option} " in done.stdout
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_options_of_the_registry_are_those_of_the_grid(name: str) -> None:
+    study = load(STUDIES[name])
+    assert study.entry == STUDIES[name] and name not in OF_THE_PRODUCT
+    assert set(STUDIES[name].options) - {"robot"} == set(study.axes)
+
+
+def test_a_study_writes_what_those_of_the_product_write_and_goes_on(tmp_path: Path) -> None:
+    words = ("--mi", "0.08,0.12", "--duration", "1", "--output", str(tmp_path))
+    done = run("symmetry", *words, "--trials", "1")
+    assert done.returncode == 0, done.stderr
+    assert "2 trials" in done.stdout
+    with (tmp_path / "trials.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert {row["study"] for row in rows} == {"symmetry"}
+    assert {row["key"].partition("-")[2] for row in rows} != {""}  # the code of research
+    assert "Equal loads" in (tmp_path / "report.html").read_text()
+    assert "legs stay in phase" in (tmp_path / "claims.md").read_text()
+    kept = (tmp_path / "trials.jsonl").read_text()
+    assert run("symmetry", *words, "--trials", "1", "--resume").returncode == 0
+    assert (tmp_path / "trials.jsonl").read_text() == kept
+
+
+def test_a_mistake_is_one_line_that_names_the_program() -> None:
+    done = run("contact", "--steps", "9")
+    assert done.returncode == 2
+    assert done.stderr.startswith("python -m research.contact: steps '9' is not one of 8, 16")
+    assert len(done.stderr.strip().splitlines()) == 1
+
+
+def test_the_product_does_not_know_these_studies() -> None:
+    with pytest.raises(ValueError, match="study 'symmetry' is not one of mi, rate"):
+        run_study("symmetry", trials=1)
+    assert grid_of("symmetry", 1, studies=STUDIES)
