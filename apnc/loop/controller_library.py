@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import tempfile
+import threading
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
@@ -179,7 +180,13 @@ def controller_library(path: Path | str) -> ControllerLibrary:
     """
     state = Path(path).stat() if Path(path).is_file() else None
     stamp = (state.st_mtime_ns, state.st_size) if state else (0, 0)
-    return _loaded(Path(path).resolve(), stamp)
+    # one thread at a time: of two that begin to check XML schemas at once, libxml2 may leave a
+    # process that finds no schema valid any more, and the working directory changes meanwhile
+    with _loading:
+        return _loaded(Path(path).resolve(), stamp)
+
+
+_loading: Final = threading.Lock()
 
 
 @lru_cache(maxsize=16)

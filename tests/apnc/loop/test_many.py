@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 import weakref
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from apnc.loop import controller_library as loader
 from apnc.loop.batch import Batch, Run, lanes_of
 from apnc.loop.experiment import Experiment
 from apnc.loop.many import compiled, simulate_many, walk_many
@@ -139,3 +141,26 @@ def test_a_run_that_was_told_takes_no_memory(monkeypatch: pytest.MonkeyPatch) ->
     lanes = Batch(lanes_of(WALK), 1).size
     simulate_many([replace(WALK, seed=seed, duration=0.2) for seed in range(4 * lanes)])
     assert most == [lanes]
+
+
+def test_threads_that_begin_together_load_a_controller_once(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    loaded: list[Path] = []
+
+    def slowly(path: Path) -> str:
+        loaded.append(path)
+        time.sleep(0.1)
+        return "controller"
+
+    monkeypatch.setattr(loader, "ControllerLibrary", slowly)
+    threads = [
+        threading.Thread(target=loader.controller_library, args=[tmp_path / "any.fmu"])
+        for _ in range(2)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    loader._loaded.cache_clear()
+    assert len(loaded) == 1
