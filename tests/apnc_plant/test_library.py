@@ -108,7 +108,7 @@ def test_while_c_runs_other_threads_run_too() -> None:
     thread = threading.Thread(target=count)
     thread.start()
     begin, before = time.perf_counter(), counted[0]
-    plant.advance(zero, zero, 60.0)
+    plant.advance(zero, zero, 300.0)
     took, after = time.perf_counter() - begin, counted[0]
     done.set()
     thread.join()

@@ -32,7 +32,9 @@ FLAGS = [
 ]
 # Runs in the page after its own scripts and leaves what it saw where --dump-dom shows it.
 PROBE = """<script>
-window.addEventListener("load", () => setTimeout(() => {
+let apncTries = 10; // a busy machine draws no frame for a while
+window.addEventListener("load", () => setTimeout(function look() {
+  if (window.apncReady && !window.apncReady() && apncTries-- > 0) return setTimeout(look, 500);
   const painted = (id) => {
     const canvas = document.getElementById(id);
     if (!canvas || !canvas.width) return 0;

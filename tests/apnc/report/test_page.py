@@ -98,8 +98,11 @@ def test_45_seconds_fit_into_8_megabytes(report: Path) -> None:
 
 
 # Starts and ends of the axes, and what the clock showed when the probe looked.
-SEEN = """<script>window.apncProbe = () => ({
-  clock: parseFloat(document.getElementById("clock")?.textContent),
+SEEN = """<script>
+const clock = () => parseFloat(document.getElementById("clock")?.textContent);
+window.apncReady = () => typeof apnc === "undefined" || clock() > apnc.window[0];
+window.apncProbe = () => ({
+  clock: clock(),
   starts: typeof apnc === "undefined" ? 0 : apnc.window[0],
   range: [...document.querySelectorAll(".js-plotly-plot")]
     .filter((p) => p.id !== "plot-path").map((p) => p.layout.xaxis.range),
