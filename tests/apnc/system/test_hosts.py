@@ -186,7 +186,10 @@ def assert_walks_as(record: Any, lines: list[list[str]]) -> None:
     np.testing.assert_array_equal(feet, record.plant["grf"] > 1.0)
 
 
-@pytest.mark.parametrize("platform", ["linux64", "win64", "aarch64-linux"])
+OTHERS = [pytest.param(name, marks=pytest.mark.slow) for name in ("win64", "aarch64-linux")]
+
+
+@pytest.mark.parametrize("platform", ["linux64", *OTHERS])
 def test_it_walks_in_a_c_program_that_has_nothing_but_the_c_library(
     platform: str, tmp_path: Path
 ) -> None:

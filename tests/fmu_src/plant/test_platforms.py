@@ -85,6 +85,7 @@ def on_arm(ours: Path, folder: Path, ticks: str, optimised: str) -> None:
     assert run(emulator, program, ticks) == run(ours, ticks)
 
 
+@pytest.mark.slow
 def test_arm(ours: Path, folder: Path) -> None:
     on_arm(ours, folder, SHORT, "-O1")
 
