@@ -8,13 +8,14 @@ from typing import ClassVar, Final
 import numpy as np
 
 from apnc_plant.chance import checked_seed, side_offset
-from apnc_plant.channels import PLANT_CHANNELS, PlantError
+from apnc_plant.channels import PlantError
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import GroundInC, Plane, Surface
 from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import Numbers, conditions_numbers, robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import Array, RobotDescription
+from apnc_plant.sample import sample_channels
 from apnc_plant.start import start_coordinates
 from apnc_plant.trace import Trace
 
@@ -172,25 +173,6 @@ class Plant:
         The tilt is measured against the normal of the ground.
         """
         return bool(self._lib.plant_state_of(self._plant.at, 0) == self._lib.PLANT_FELL)
-
-
-def sample_channels(rows: Array, n_legs: int) -> dict[str, Array]:
-    """Channels of samples as ``plant_sample`` writes them.
-
-    Args:
-        rows: a sample each, shape (samples, 9 + 19 n_legs).
-        n_legs: number of legs.
-
-    Returns:
-        Every channel in ``PLANT_CHANNELS`` by name, samples along the first axis.
-    """
-    found, at = {}, 0
-    for channel in PLANT_CHANNELS:
-        shape = channel.shape(n_legs)
-        end = at + math.prod(shape)
-        found[channel.name] = rows[:, at:end].reshape(-1, *shape).copy()
-        at = end
-    return found
 
 
 class PlantInC:

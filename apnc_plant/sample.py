@@ -1,26 +1,38 @@
-"""Records of the plant in C, split into channels by name."""
+"""Samples and records of the plant in C, split into channels by name."""
 
 from __future__ import annotations
 
 import math
-from typing import Final
 
-from apnc_plant.channels import PLANT_CHANNELS, XYZ
+from apnc_plant.channels import PLANT_CHANNELS
 from apnc_plant.robot.model import Array
-
-_IN_C: Final = ("position", "rpy", "velocity", "joint_angle", "joint_speed", "joint_torque",
-                "joint_work", "foot_position", "foot_force", "grf")  # fmt: skip
-"""Channels in the order of ``plant_sample``."""
-
-_SHAPES: Final = {channel.name: channel.shape for channel in PLANT_CHANNELS}
 
 
 def sample_size(n_legs: int) -> int:
-    """Numbers in a sample; the C function ``plant_sample_size`` says the same."""
-    return 3 * len(XYZ) + 19 * n_legs
+    """Numbers in a sample, as ``plant_sample_size`` in C says."""
+    return sum(math.prod(channel.shape(n_legs)) for channel in PLANT_CHANNELS)
 
 
-def channels_of(samples: Array, ticks: int, count: int, n_legs: int) -> dict[str, Array]:
+def sample_channels(rows: Array, n_legs: int) -> dict[str, Array]:
+    """Channels of samples as ``plant_sample`` writes them.
+
+    Args:
+        rows: a sample each, shape (samples, 9 + 19 n_legs).
+        n_legs: number of legs.
+
+    Returns:
+        Every channel in ``PLANT_CHANNELS`` by name, samples along the first axis.
+    """
+    found, at = {}, 0
+    for channel in PLANT_CHANNELS:
+        shape = channel.shape(n_legs)
+        end = at + math.prod(shape)
+        found[channel.name] = rows[:, at:end].reshape(-1, *shape).copy()
+        at = end
+    return found
+
+
+def record_channels(samples: Array, ticks: int, count: int, n_legs: int) -> dict[str, Array]:
     """The channels of a record that C wrote, as views into it.
 
     Args:
@@ -32,10 +44,10 @@ def channels_of(samples: Array, ticks: int, count: int, n_legs: int) -> dict[str
     Returns:
         Every channel of ``PLANT_CHANNELS``, samples along the first axis.
     """
-    channels, start = {}, 0
-    for name in _IN_C:
-        shape = (ticks, *_SHAPES[name](n_legs))
-        size = math.prod(shape)
-        channels[name] = samples[start : start + size].reshape(shape)[:count]
-        start += size
-    return channels
+    found, at = {}, 0
+    for channel in PLANT_CHANNELS:
+        shape = (ticks, *channel.shape(n_legs))
+        end = at + math.prod(shape)
+        found[channel.name] = samples[at:end].reshape(shape)[:count]
+        at = end
+    return found

@@ -23,7 +23,7 @@ from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import conditions_numbers, robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import Array
-from apnc_plant.sample import channels_of, sample_size
+from apnc_plant.sample import record_channels, sample_size
 from apnc_plant.start import start_coordinates
 from build_fmu.build import host_fmu
 
@@ -149,7 +149,7 @@ class Run:
         return Record(
             legs=tuple(leg.name for leg in robot.legs),
             time=np.arange(count, dtype=np.float64) * self.experiment.Ts,
-            plant=channels_of(self._samples, self.experiment.ticks, count, len(robot.legs)),
+            plant=record_channels(self._samples, self.experiment.ticks, count, len(robot.legs)),
             controller=self._controller_channels(count),
             mass=self.mass,
             experiment=self.experiment,
@@ -163,10 +163,14 @@ class Run:
 
 
 def _ticks(experiment: Experiment, name: str) -> list[tuple[int, Any]]:
-    """Steps of a quantity by the tick from which each holds, later ones of a tick alone."""
+    """Steps of a quantity by the tick from which each holds, later ones of a tick alone.
+
+    Those from the end of the run on are left out: C counts ticks in 32 bits.
+    """
     found: dict[int, Any] = {}
     for start, value in steps_of(getattr(experiment, name)):
-        found[_first_tick(start, experiment.Ts)] = value
+        if start < experiment.ticks * experiment.Ts:
+            found[_first_tick(start, experiment.Ts)] = value
     return sorted(found.items())
 
 
@@ -181,7 +185,7 @@ def _first_tick(start: float, Ts: float) -> int:
 def _schedule(experiment: Experiment, name: str) -> tuple[dict[str, Any], tuple[Any, ...]]:
     ffi, _ = library()
     steps = _ticks(experiment, name)
-    ticks = ffi.new("int32_t[]", [min(tick, 2**31 - 1) for tick, _ in steps])
+    ticks = ffi.new("int32_t[]", [tick for tick, _ in steps])
     values = ffi.new("double[]", [float(value) for _, value in steps])
     return {"n": len(steps), "tick": ticks, "value": values}, (ticks, values)
 

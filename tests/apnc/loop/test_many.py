@@ -164,3 +164,15 @@ def test_threads_that_begin_together_load_a_controller_once(
         thread.join()
     loader._loaded.cache_clear()
     assert len(loaded) == 1
+
+
+@pytest.mark.parametrize("later", [1e9, 3e17, 1e300])
+@pytest.mark.parametrize(("name", "values"), [("mi", (0.15, 0.4)), ("conditions", ("C1", "S3"))])
+def test_a_step_after_the_end_of_a_run_changes_nothing(
+    name: str, values: tuple[object, object], later: float
+) -> None:
+    plain = Experiment(engine="compiled", duration=1, **{name: values[0]})
+    stepped = replace(plain, **{name: ((0.0, values[0]), (later, values[1]))})
+    a, b = simulate(plain), simulate(stepped)
+    assert len(b) == 60
+    assert np.array_equal(a.plant["position"], b.plant["position"])
