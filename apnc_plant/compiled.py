@@ -106,11 +106,7 @@ class Plant:
             ValueError: an unknown leg, or another payload than the plant was built with.
         """
         conditions.check_legs(self.legs)
-        if conditions.payload != self._conditions.payload:
-            raise ValueError(
-                f"payload is {conditions.payload} kg; allowed: {self._conditions.payload} kg, "
-                "fixed when the plant was built"
-            )
+        conditions.check_payload(self._conditions.payload)
         self._conditions = conditions
         numbers = conditions_numbers(conditions, self.legs, self._robot.weight)
         self._lib.plant_set_conditions(self._plant.at, 0, numbers.at)

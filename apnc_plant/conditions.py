@@ -56,6 +56,17 @@ class Conditions:
         """Which of a robot's legs have a sensor that delivers 0."""
         return legs if self.dropout == (ALL,) else self.dropout
 
+    def check_payload(self, built: float) -> None:
+        """Refuse another payload than a plant was built with [kg].
+
+        Raises:
+            ValueError: it differs.
+        """
+        if self.payload != built:
+            raise ValueError(
+                f"payload is {self.payload} kg; allowed: {built} kg, fixed when the plant was built"
+            )
+
     def check_legs(self, legs: tuple[str, ...]) -> None:
         """Refuse names of legs that the robot does not have.
 

@@ -154,11 +154,7 @@ class LeggedPlant:
             ValueError: an unknown leg, or another payload than the plant was built with.
         """
         conditions.check_legs(self.legs)
-        if conditions.payload != self._conditions.payload:
-            raise ValueError(
-                f"payload is {conditions.payload} kg; allowed: {self._conditions.payload} kg, "
-                "fixed when the plant was built"
-            )
+        conditions.check_payload(self._conditions.payload)
         self._conditions = conditions
         self._damaged = [leg in conditions.damaged for leg in self.legs]
         self._sensor.disturb(conditions)
