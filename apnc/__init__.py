@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from apnc.studies.engine import run_study
     from apnc.summary import Summary, summarise
     from apnc_plant.conditions import Conditions
-    from apnc_plant.ground import Ground, Kerb, Plane, Surface, Waves
+    from apnc_plant.ground import Ground, Kerb, Obstacles, Plane, Waves
     from apnc_plant.plant import Plant
     from apnc_plant.robot import RobotDescription, load_robot
 
@@ -39,7 +39,7 @@ _PLACES: Final = {
     "run_study": "apnc.studies.engine",
     **dict.fromkeys(("Summary", "summarise"), "apnc.summary"),
     "Conditions": "apnc_plant.conditions",
-    **dict.fromkeys(("Ground", "Kerb", "Plane", "Surface", "Waves"), "apnc_plant.ground"),
+    **dict.fromkeys(("Ground", "Kerb", "Obstacles", "Plane", "Waves"), "apnc_plant.ground"),
     **dict.fromkeys(("RobotDescription", "load_robot"), "apnc_plant.robot"),
 }
 
@@ -50,12 +50,12 @@ __all__ = [
     "Gait",
     "Ground",
     "Kerb",
+    "Obstacles",
     "Plane",
     "Plant",
     "Record",
     "RobotDescription",
     "Summary",
-    "Surface",
     "Waves",
     "__version__",
     "gait_of_run",

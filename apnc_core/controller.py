@@ -20,9 +20,10 @@ from apnc_core import (
 )
 from apnc_core.elementary import wrap
 from apnc_core.enumerations import CouplingSign, ForwardModel, KappaRule, Method, PhaseMeasure
-from apnc_core.interface import Array, Inputs, Outputs, Parameters
+from apnc_core.interface import Inputs, Outputs, Parameters
 from apnc_core.phase_acquisition import PeakMeasure, VectorMeasure
 from apnc_core.phase_estimation import Stability, Switch
+from apnc_core.types import Array
 from apnc_core.variables import row
 
 

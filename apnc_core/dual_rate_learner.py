@@ -6,7 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from apnc_core.interface import Array, Parameters
+from apnc_core.interface import Parameters
+from apnc_core.types import Array
 
 FORGOTTEN: Final = 1e-200
 """Gains below this count as zero; denormal numbers would slow the unloaded controller down."""

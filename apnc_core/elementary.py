@@ -12,7 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from apnc_core.interface import Array
+from apnc_core.types import Array
 
 TO_WHOLE: Final = 1.5 * 2.0**52
 """Adding and subtracting it leaves the nearest integer."""

@@ -7,7 +7,8 @@ from typing import Final
 import numpy as np
 
 from apnc_core.elementary import tanh
-from apnc_core.interface import Array, Parameters
+from apnc_core.interface import Parameters
+from apnc_core.types import Array
 
 KERNEL_WIDTH: Final = 0.04
 """Square of the distance at which a kernel has fallen to 1/e. Source: Thor et al. 2020."""

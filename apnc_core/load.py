@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from apnc_core.interface import Array
+from apnc_core.types import Array
 
 MOST_WEIGHTS: Final = 1000.0
 """A load above so many times the weight is no load: a sensor shows it when its wire breaks."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from apnc_core.interface import Array, Parameters
+from apnc_core.interface import Parameters
+from apnc_core.types import Array
 
 
 def amplitude_scale(turn: float, n_legs: int, p: Parameters) -> Array:

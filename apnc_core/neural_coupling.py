@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from apnc_core.elementary import cos_unit, sin_cos, sin_unit, total
-from apnc_core.interface import Array
+from apnc_core.types import Array
 
 
 def couple(o: Array, phi: Array, xi: float) -> Array:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from apnc_core.elementary import tanh
-from apnc_core.interface import Array, Parameters
+from apnc_core.interface import Parameters
+from apnc_core.types import Array
 
 
 def activation(o1: Array, o2: Array, MI: float, p: Parameters) -> tuple[Array, Array]:

@@ -12,7 +12,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from apnc_core.elementary import angle_of, wrap_far
-from apnc_core.interface import Array, Parameters
+from apnc_core.interface import Parameters
+from apnc_core.types import Array
 
 
 @dataclass

@@ -9,7 +9,8 @@ import numpy as np
 
 from apnc_core.elementary import total, wrap
 from apnc_core.enumerations import KappaRule
-from apnc_core.interface import Array, Parameters
+from apnc_core.interface import Parameters
+from apnc_core.types import Array
 
 
 @dataclass

@@ -10,7 +10,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from apnc_core.interface import Array, Parameters
+from apnc_core.interface import Parameters
+from apnc_core.types import Array
 
 ACTIVATION_AT_TOUCH_DOWN: Final = (1.0, 0.0)
 """Activations (a1, a2) that a leg is set to when its foot touches down."""

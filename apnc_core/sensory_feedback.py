@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from apnc_core.elementary import cos_unit, sin_unit
-from apnc_core.interface import Array
+from apnc_core.types import Array
 
 
 def feedback(gamma: Array, F: Array, o1: Array, o2: Array) -> tuple[Array, Array]:

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from apnc_core.interface import Array, Parameters
+from apnc_core.interface import Parameters
+from apnc_core.types import Array
 
 
 def gain(n_legs: int, p: Parameters) -> Array:

@@ -7,14 +7,15 @@ from typing import ClassVar, Final
 
 import numpy as np
 
+from apnc_core.types import Array
 from apnc_plant.chance import checked_seed, side_offset
 from apnc_plant.channels import PlantError
 from apnc_plant.conditions import Conditions
-from apnc_plant.ground import GroundInC, Plane, Surface
+from apnc_plant.ground import Ground, GroundInC, Plane
 from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import Numbers, conditions_numbers, robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot.model import Array, RobotDescription
+from apnc_plant.robot.model import RobotDescription
 from apnc_plant.sample import sample_channels
 from apnc_plant.start import start_coordinates
 from apnc_plant.trace import Trace
@@ -47,7 +48,7 @@ class Plant:
         seed: int = 0,
         *,
         options: PlantOptions | None = None,
-        ground: Surface | None = None,
+        ground: Ground | None = None,
         conditions: Conditions | None = None,
         kind: str = "legs",
     ) -> None:

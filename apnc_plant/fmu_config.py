@@ -10,7 +10,7 @@ import numpy as np
 
 from apnc_plant.conditions import CONDITIONS, Conditions
 from apnc_plant.generate import start_macro
-from apnc_plant.ground.obstacles import CELLS, SINK_IN, STEP_HEIGHT, TILE, Ground
+from apnc_plant.ground.obstacles import CELLS, SINK_IN, STEP_HEIGHT, TILE, Obstacles
 from apnc_plant.numbers import SUSPENSION, leg_numbers
 from apnc_plant.robot.model import GRAVITY, PAYLOAD_SIZE, RobotDescription
 from apnc_plant.variables import Condition, row, starts_of
@@ -27,7 +27,7 @@ def robot_config(robot: RobotDescription) -> bytes:
     Raises:
         ValueError: a number of the robot that its FMU does not take.
     """
-    trunk, field = robot.trunk, Ground()
+    trunk, field = robot.trunk, Obstacles()
     lines = [
         f"/* Robot '{robot.name}', written by the build. */",
         "#ifndef ROBOT_CONFIG_H",

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from apnc_core.types import Array
 from apnc_plant.coordinates import BASE
-from apnc_plant.ground import GroundInC, Surface
+from apnc_plant.ground import Ground, GroundInC
 from apnc_plant.library import library
 from apnc_plant.numbers import robot_numbers
-from apnc_plant.robot.model import Array, RobotDescription
+from apnc_plant.robot.model import RobotDescription
 
 
 class RobotForces:
@@ -31,7 +32,7 @@ class RobotForces:
             forces on the feet [N] (both world frame, flat) and sums of the normal forces [N].
     """
 
-    def __init__(self, robot: RobotDescription, ground: Surface, target: Array) -> None:
+    def __init__(self, robot: RobotDescription, ground: Ground, target: Array) -> None:
         """Bind the forces to a robot on a ground.
 
         Args:

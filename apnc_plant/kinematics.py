@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from apnc_core.types import Array
 from apnc_plant.library import library
 from apnc_plant.numbers import robot_numbers
-from apnc_plant.robot.model import Array, RobotDescription
+from apnc_plant.robot.model import RobotDescription
 
 
 class Kinematics:

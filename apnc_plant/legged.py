@@ -9,16 +9,17 @@ from typing import ClassVar, Final, Protocol
 
 import numpy as np
 
+from apnc_core.types import Array
 from apnc_plant.chance import checked_seed, side_offset
 from apnc_plant.channels import PlantError
 from apnc_plant.compiled import foot_mass
 from apnc_plant.conditions import Conditions
 from apnc_plant.coordinates import BASE, JOINT_SIGN
 from apnc_plant.forces import RobotForces
-from apnc_plant.ground import GroundInC, Plane, Surface
+from apnc_plant.ground import Ground, GroundInC, Plane
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot.model import Array, MassProperties, RobotDescription
+from apnc_plant.robot.model import MassProperties, RobotDescription
 from apnc_plant.sensor.load import LoadSensor
 from apnc_plant.start import start_coordinates
 from apnc_plant.trace import Trace
@@ -42,7 +43,7 @@ class Setup:
 
     robot: RobotDescription
     trunk: MassProperties
-    ground: Surface
+    ground: Ground
     options: PlantOptions
     start: Array
     forces: RobotForces
@@ -97,7 +98,7 @@ class LeggedPlant:
         seed: int = 0,
         *,
         options: PlantOptions | None = None,
-        ground: Surface | None = None,
+        ground: Ground | None = None,
         conditions: Conditions | None = None,
     ) -> None:
         """Put the robot on the ground.

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from apnc_core.types import Array
 from apnc_plant.channels import PlantError
 from apnc_plant.conditions import Conditions
 from apnc_plant.trace import Trace
 
 __all__ = ["Plant", "PlantError"]
-
-Array = NDArray[np.float64]
 
 
 class Plant(Protocol):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from apnc_core.types import Array
 from apnc_plant.channels import PLANT_CHANNELS
-from apnc_plant.robot.model import Array
 
 
 def sample_size(n_legs: int) -> int:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from apnc_core.types import Array
 from apnc_plant.ground import GroundInC
 from apnc_plant.library import library
 from apnc_plant.numbers import Numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot.model import Array
 
 
 def start_coordinates(robot: Numbers, ground: GroundInC, options: PlantOptions) -> Array:

@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from apnc_plant.robot.model import Array
+from apnc_core.types import Array
 
 Split = Callable[[Array], Mapping[str, Array]]
 

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from apnc_core.types import Array
 from apnc_plant.ground import GroundInC, Plane
 from apnc_plant.library import aligned_memory, declarations, library
 from apnc_plant.numbers import robot_numbers
@@ -21,8 +21,6 @@ from build_fmu.compile import compile_library
 from build_fmu.library import sources
 from build_fmu.platforms import PLATFORMS, host_platform
 from research.contact.measure import TICK, commands
-
-Array = NDArray[np.float64]
 
 KINDS: Final = {"scalar": "PLANT_SCALAR", "legs": "PLANT_LEGS", "robots": "PLANT_ROBOTS"}
 """Ways to compute robots, and their names in ``plant.h``."""

@@ -6,7 +6,7 @@ experiment = apnc.Experiment(
     mi=0.15,  # sets the stepping frequency
     duration=20,  # s
     seed=3,  # of the robot's asymmetry and the sensor noise
-    ground=apnc.Ground(roughness=0.2, seed=3),
+    ground=apnc.Obstacles(roughness=0.2, seed=3),
 )
 record = apnc.simulate(experiment)
 summary = apnc.summarise(record)

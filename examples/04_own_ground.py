@@ -16,7 +16,7 @@ from apnc_plant.ground import Numbers
 AT, HEIGHT, RADIUS = 0.6, 0.015, 1.5  # of a large ball that stands out of the plane [m]
 
 
-class Hill(apnc.Surface):
+class Hill(apnc.Ground):
     """The top of the ball, touched in Python."""
 
     kind = "hill"

@@ -9,9 +9,10 @@ from typing import Any, Final
 
 import numpy as np
 
+from apnc_core.types import Array
 from apnc_plant.coordinates import BASE
 from apnc_plant.robot.links import links_of
-from apnc_plant.robot.model import Array, Leg, MassProperties, RobotDescription, Vector3
+from apnc_plant.robot.model import Leg, MassProperties, RobotDescription, Vector3
 from exudyn_models.engine import exu, items
 
 MASSLESS: Final = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))

@@ -15,8 +15,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "apnc_core": set(),
     "build_fmu": {"apnc_core"},
     "apnc_plant": {"apnc_core", "build_fmu"},
-    "exudyn_models": {"apnc_plant"},
-    "mujoco_models": {"apnc_plant"},
+    "exudyn_models": {"apnc_core", "apnc_plant"},
+    "mujoco_models": {"apnc_core", "apnc_plant"},
     "apnc": {"apnc_core", "apnc_plant", "build_fmu", "exudyn_models", "mujoco_models"},
 }
 PRODUCT = set(MAY_IMPORT)

@@ -37,7 +37,7 @@ from apnc_plant.conditions import CONDITIONS
 if TYPE_CHECKING:
     from apnc.loop.experiment import Experiment
     from apnc.loop.simulate import Shown
-    from apnc_plant.ground import Surface
+    from apnc_plant.ground import Ground
 
 ENDED_EARLY: Final = 1
 """Exit code of a run that fell or diverged."""
@@ -166,15 +166,15 @@ def experiment_of(options: Mapping[str, Any]) -> Experiment:
     return apnc.Experiment(**given, settings=settings)
 
 
-def _ground(text: Text, roughness: Number, slope: Number, seed: int | None) -> dict[str, Surface]:
+def _ground(text: Text, roughness: Number, slope: Number, seed: int | None) -> dict[str, Ground]:
     if (text, roughness, slope) == (None, None, None):
         return {}
     if text is not None and roughness is not None:
         raise ValueError(f"--ground {text} and --roughness {roughness} both say the ground")
-    from apnc_plant.ground import surface
+    from apnc_plant.ground import parse_ground
 
-    own = apnc.Plane() if roughness is None else apnc.Ground(roughness=roughness, seed=seed or 0)
-    ground = own if text is None else surface(text)
+    own = apnc.Plane() if roughness is None else apnc.Obstacles(roughness=roughness, seed=seed or 0)
+    ground = own if text is None else parse_ground(text)
     if slope is not None:
         if ground.slope:
             raise ValueError(f"--ground {text} and --slope {slope} both say the slope")

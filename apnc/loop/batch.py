@@ -16,13 +16,13 @@ from apnc.loop.fmu_controller import FmuError
 from apnc.loop.record import End, Record
 from apnc.loop.steps import steps_of
 from apnc_core.schema import Shape
+from apnc_core.types import Array
 from apnc_core.variables import row
 from apnc_plant.chance import side_offset
 from apnc_plant.ground import GroundInC
 from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import conditions_numbers, robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot.model import Array
 from apnc_plant.sample import record_channels, sample_size
 from apnc_plant.start import start_coordinates
 from build_fmu.build import host_fmu

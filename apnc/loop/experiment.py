@@ -25,7 +25,7 @@ from apnc_core.settings import checked
 from apnc_core.variables import row, rows
 from apnc_plant.chance import LARGEST_SEED
 from apnc_plant.conditions import CONDITIONS, Conditions, named_conditions
-from apnc_plant.ground import Plane, Surface, from_dict
+from apnc_plant.ground import Ground, Plane, from_dict
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
 from apnc_plant.robot.model import OF_THE_RUN
@@ -87,7 +87,7 @@ class Experiment:
     method: str = None  # type: ignore[assignment]  # a text once it is made
     preset: str = OWN_PRESET
     settings: Mapping[str, Setting] = field(default_factory=dict)
-    ground: Surface = field(default_factory=Plane)
+    ground: Ground = field(default_factory=Plane)
     conditions: Over[str | Conditions] = "C1"
     turn: Over[float] = 0.0
     reset: Over[bool] = False
@@ -135,7 +135,7 @@ class Experiment:
             raise ValueError(f"fmu = {self.fmu!r} is not a file")
         if not isinstance(self.settings, Mapping):
             raise ValueError(f"settings = {self.settings!r} are not values by name")
-        if not isinstance(self.ground, Surface):
+        if not isinstance(self.ground, Ground):
             raise ValueError(f"ground = {self.ground!r} is not a ground")
         whole = isinstance(self.seed, int) and not isinstance(self.seed, bool)
         if not whole or not 0 <= self.seed <= LARGEST_SEED:

@@ -15,16 +15,15 @@ import fmpy
 import numpy as np
 from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
-from numpy.typing import NDArray
 
 from apnc_core import settings
 from apnc_core.in_python import in_python
 from apnc_core.schema import Causality, Shape, Type, Value, Variable
+from apnc_core.types import Array
 from apnc_core.variables import TABLE, Scalar, row, scalars
 from apnc_plant.trace import Trace
 from build_fmu.platforms import BuildError, library_of, why_not_loaded
 
-Array = NDArray[np.float64]
 Setting = Value | Sequence[float]
 
 

@@ -7,17 +7,13 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
 from apnc.loop.experiment import Experiment
 from apnc_core.schema import Shape, Variable
 from apnc_core.settings import Setting
+from apnc_core.types import Array
 from apnc_core.variables import TABLE
 from apnc_plant.channels import PLANT_CHANNELS
 from apnc_plant.robot import RobotDescription
-
-Array = NDArray[np.float64]
 
 
 class End(StrEnum):

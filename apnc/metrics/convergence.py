@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from apnc.metrics.phases import phase_difference_authors, relative_phases, wrap
-from apnc.metrics.smoothing import Array, smooth
+from apnc.metrics.smoothing import smooth
+from apnc_core.types import Array
 
 AUTHORS_THRESHOLD: Final = 2.8  # distance to the gait [rad], from the authors' evaluation code
 STRICT_TOLERANCE: Final = 0.6  # deviation of a phase [rad]: a tenth of a cycle

@@ -6,7 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from apnc.metrics.smoothing import Array, smooth
+from apnc.metrics.smoothing import smooth
+from apnc_core.types import Array
 from apnc_plant.robot.model import GRAVITY
 
 MIN_SPEED: Final = 0.005

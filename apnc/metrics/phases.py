@@ -7,7 +7,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from apnc.metrics.smoothing import WINDOW, Array, smooth
+from apnc.metrics.smoothing import WINDOW, smooth
+from apnc_core.types import Array
 
 Phasors = NDArray[np.complex128]
 

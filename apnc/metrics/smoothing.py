@@ -6,10 +6,9 @@ from functools import cache
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
-Array = NDArray[np.float64]
+from apnc_core.types import Array
 
 WINDOW: Final = 91
 ORDER: Final = 2

@@ -15,13 +15,13 @@ from scipy.ndimage import grey_opening
 
 from apnc.metrics.motion import MIN_SPEED
 from apnc.metrics.phases import cpg_phase
-from apnc.metrics.smoothing import Array
+from apnc_core.types import Array
 
 Bool = NDArray[np.bool_]
 
 MID_SWING: Final = 1.5 * np.pi
 """Phase of the CPG at which o2 and with it the command to the knee peaks [rad]."""
-# The authors' tenth of the largest force; for the other two see docs/decisions.md.
+# The authors' tenth of the largest force; the other two: docs/decisions/stance-and-strides.md.
 STANCE_SHARE: Final = 0.1
 PEAK_QUANTILE: Final = 0.99
 MIN_RUN: Final = 3

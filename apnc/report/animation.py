@@ -8,9 +8,10 @@ import numpy as np
 
 from apnc import metrics
 from apnc.report.encoding import packed
-from apnc.report.panels import Array, Run
+from apnc.report.panels import Run
 from apnc.report.skeleton import in_ground, leg_chains, trunk_corners
-from apnc_plant.ground import Surface
+from apnc_core.types import Array
+from apnc_plant.ground import Ground
 
 REACH: Final = 4.5
 """Ground that is drawn around the robot, in diagonals of it from above."""
@@ -62,7 +63,7 @@ def animation_data(run: Run) -> dict[str, Any]:
     }
 
 
-def _lines(ground: Surface, path: Array, reach: float) -> list[Array]:
+def _lines(ground: Ground, path: Array, reach: float) -> list[Array]:
     """Lines of the ground around the path, or its end, in the frame of the ground."""
     low, high = path[:, :2].min(axis=0) - reach, path[:, :2].max(axis=0) + reach
     if np.prod(high - low) > AREA and len(path) > 1:
@@ -76,7 +77,7 @@ def _is_landmark(points: Array) -> bool:
     return bool((straight & (np.abs(steps - np.round(steps)) < 1e-9)).any())
 
 
-def _joined(ground: Surface, lines: list[Array]) -> Array:
+def _joined(ground: Ground, lines: list[Array]) -> Array:
     gap = np.full((1, 3), np.nan)
     return np.concatenate([gap, *(part for points in lines for part in (points, gap))]) @ (
         ground.rotation().T

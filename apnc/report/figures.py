@@ -10,8 +10,9 @@ from apnc import metrics
 from apnc.report import theme
 from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
-from apnc.report.panels import Array, Run, line, stacked
+from apnc.report.panels import Run, line, stacked
 from apnc.report.skeleton import clearance, in_ground
+from apnc_core.types import Array
 from apnc_plant.channels import JOINT_SIGNS, JOINTS
 
 PI_TICKS: Final = {

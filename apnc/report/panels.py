@@ -17,8 +17,7 @@ from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
 from apnc.report.samples import Samples
 from apnc.summary import Summary
-
-Array = NDArray[np.float64]
+from apnc_core.types import Array
 
 # Solid and dotted: told apart without colours.
 STYLES: Final = ({"width": 1.7, "dash": "solid"}, {"width": 1.3, "dash": "dot"})

@@ -6,9 +6,8 @@ import math
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from apnc_core.types import Array
 
 SHOWN: Final = 15_000
 """Samples per line of which a page shows every one; 250 s at 60 Hz, 16 MB of page."""

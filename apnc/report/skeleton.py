@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from apnc_plant.ground import Surface
+from apnc_core.types import Array
+from apnc_plant.ground import Ground
 from apnc_plant.robot import RobotDescription
 
-Array = NDArray[np.float64]
 Plant = Mapping[str, Array]
 
 
@@ -41,12 +40,12 @@ def leg_chains(robot: RobotDescription, plant: Plant) -> Array:
     return np.concatenate([joints, plant["foot_position"][:, :, None]], axis=2)
 
 
-def in_ground(ground: Surface, points: Array) -> Array:
+def in_ground(ground: Ground, points: Array) -> Array:
     """Points of the world in the frame of the ground [m], shape (..., 3)."""
     return points @ ground.rotation()
 
 
-def clearance(ground: Surface, robot: RobotDescription, feet: Array) -> Array:
+def clearance(ground: Ground, robot: RobotDescription, feet: Array) -> Array:
     """Lowest point of every foot over the ground below its centre [m], shape (T, n).
 
     Args:

@@ -9,7 +9,7 @@ from typing import Any
 from apnc.report import theme
 from apnc.report.encoding import float32
 from apnc.report.figure import Figure
-from apnc.report.panels import Array
+from apnc_core.types import Array
 
 Section = tuple[float, float, str]
 """Begin and end [s], and label."""

@@ -13,7 +13,7 @@ from apnc_core.schema import Causality, Scalar, Type, Value
 from apnc_core.settings import Setting, checked_in
 from apnc_core.variables import row, rows, scalars
 from apnc_plant.conditions import CONDITIONS, Conditions
-from apnc_plant.ground import Ground
+from apnc_plant.ground import Obstacles
 from apnc_plant.variables import COMMANDS, FELL, LOAD, TABLE, Condition
 from build_fmu.description_parts import UNITS
 from build_fmu.platforms import MODEL
@@ -232,7 +232,7 @@ def _connectors(known: Iterable[Scalar], shown: tuple[str, ...]) -> tuple[Connec
 
 def _refuse(experiment: Experiment) -> None:
     ground, seed = experiment.ground, experiment.seed
-    rough = Ground(slope=ground.slope, roughness=getattr(ground, "roughness", 0.0), seed=seed)
+    rough = Obstacles(slope=ground.slope, roughness=getattr(ground, "roughness", 0.0), seed=seed)
     most = int(PLANT_PARAMETERS["seed"].max or 0)
     for name, value, fits, allowed in (
         ("robot", experiment.robot, isinstance(experiment.robot, str), "a name or a file"),

@@ -1,13 +1,13 @@
 """Grounds: one object each, which nothing else needs to know the kind of."""
 
+from apnc_plant.ground.ground import GROUNDS, Ground, from_dict, parse_ground
 from apnc_plant.ground.in_c import GroundInC, Numbers
 from apnc_plant.ground.kerb import Kerb
-from apnc_plant.ground.obstacles import Ground
+from apnc_plant.ground.obstacles import Obstacles
 from apnc_plant.ground.plane import Plane
-from apnc_plant.ground.surface import GROUNDS, Surface, from_dict, surface
 from apnc_plant.ground.waves import Waves
 
-GROUNDS.update({ground.kind: ground for ground in (Plane, Ground, Kerb, Waves)})
+GROUNDS.update({ground.kind: ground for ground in (Plane, Obstacles, Kerb, Waves)})
 
 __all__ = [
     "GROUNDS",
@@ -15,9 +15,9 @@ __all__ = [
     "GroundInC",
     "Kerb",
     "Numbers",
+    "Obstacles",
     "Plane",
-    "Surface",
     "Waves",
     "from_dict",
-    "surface",
+    "parse_ground",
 ]

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from apnc_core.types import Array
 from apnc_plant.library import library
-from apnc_plant.robot.model import Array
 
 if TYPE_CHECKING:
-    from apnc_plant.ground.surface import Surface
+    from apnc_plant.ground.ground import Ground
 
 Integers = NDArray[np.int64]
 
@@ -42,7 +42,7 @@ class GroundInC:
         flat: whether C sees a plane and nothing else.
     """
 
-    def __init__(self, ground: Surface, radius: float) -> None:
+    def __init__(self, ground: Ground, radius: float) -> None:
         """Fill the struct.
 
         Args:

@@ -8,13 +8,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from apnc_core.types import Array
+from apnc_plant.ground.ground import Ground
 from apnc_plant.ground.in_c import Numbers
-from apnc_plant.ground.surface import Surface
-from apnc_plant.robot.model import Array
 
 
 @dataclass(frozen=True)
-class Kerb(Surface):
+class Kerb(Ground):
     """A step up, and down again if it has a length; without end to both sides.
 
     Args:

@@ -9,11 +9,11 @@ from typing import ClassVar, Final
 
 import numpy as np
 
+from apnc_core.types import Array
 from apnc_plant.chance import checked_seed
+from apnc_plant.ground.ground import Ground
 from apnc_plant.ground.in_c import GroundInC, Numbers
-from apnc_plant.ground.surface import Surface
 from apnc_plant.library import library
-from apnc_plant.robot.model import Array
 
 STEP_HEIGHT: Final = 0.01265
 """Step height of the robot in the terrain study of the paper [m]: obstacle height at R = 1."""
@@ -32,7 +32,7 @@ CIRCLE: Final = np.linspace(0.0, 2.0 * math.pi, 17)
 
 
 @dataclass(frozen=True)
-class Ground(Surface):
+class Obstacles(Ground):
     """A plane with caps of balls on it.
 
     Args:
@@ -100,7 +100,7 @@ class Ground(Surface):
 
     def lines(self, x0: float, x1: float, y0: float, y1: float) -> list[Array]:
         """The plane, and of every obstacle its foot and two arcs across its top."""
-        lines = Surface.lines(Ground(), x0, x1, y0, y1)
+        lines = Ground.lines(Obstacles(), x0, x1, y0, y1)
         for x, y, z, radius in self.obstacles():
             for column in range(math.ceil((x0 - x) / TILE), math.floor((x1 - x) / TILE) + 1):
                 for row in range(math.ceil((y0 - y) / TILE), math.floor((y1 - y) / TILE) + 1):
@@ -120,7 +120,7 @@ def _cap(place: tuple[float, float], z: float, radius: float) -> list[Array]:
 
 
 @lru_cache(maxsize=8)
-def _obstacles(ground: Ground) -> Array:
+def _obstacles(ground: Obstacles) -> Array:
     if ground.roughness == 0.0:
         return np.zeros((0, 4))
     balls = _numbers(ground, 0.0).reals[2:].reshape(-1, 4)
@@ -129,7 +129,7 @@ def _obstacles(ground: Ground) -> Array:
 
 
 @lru_cache(maxsize=8)
-def _numbers(ground: Ground, radius: float) -> Numbers:
+def _numbers(ground: Obstacles, radius: float) -> Numbers:
     ffi, lib = library()
     smallest, largest = ground.diameters
     fields = {

@@ -7,14 +7,14 @@ from typing import ClassVar
 
 import numpy as np
 
+from apnc_core.types import Array
+from apnc_plant.ground.ground import Ground
 from apnc_plant.ground.in_c import Numbers
-from apnc_plant.ground.surface import Surface
-from apnc_plant.robot.model import Array
 
 
 @dataclass(frozen=True)
-class Plane(Surface):
-    """A plane; see :class:`Surface` for its slope."""
+class Plane(Ground):
+    """A plane; see :class:`Ground` for its slope."""
 
     kind: ClassVar[str] = "plane"
     kind_in_c: ClassVar[str] = "PLANT_PLANE"

@@ -8,9 +8,9 @@ from typing import ClassVar, Final
 
 import numpy as np
 
+from apnc_core.types import Array
+from apnc_plant.ground.ground import Ground
 from apnc_plant.ground.in_c import Numbers
-from apnc_plant.ground.surface import Surface
-from apnc_plant.robot.model import Array
 
 STEEPEST: Final = 1.0
 """Greatest slope along x or y that is allowed [1]: 45 degrees."""
@@ -20,7 +20,7 @@ TIGHTEST: Final = 0.5
 
 
 @dataclass(frozen=True)
-class Waves(Surface):
+class Waves(Ground):
     """z = amplitude / 2 (sin(k x) + sin(k y)) with k = 2 pi / wavelength, in all directions.
 
     Args:

@@ -7,13 +7,12 @@ from dataclasses import dataclass, field
 from typing import Annotated, Final, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from apnc_core.frozen import Frozen
 from apnc_core.settings import checked
+from apnc_core.types import Array
 from apnc_plant.robot.quantity import FLAT, Checked, NotAllowedError, RobotDescriptionError, Rule
 
-Array = NDArray[np.float64]
 Vector3 = tuple[float, float, float]
 
 GRAVITY: Final = 9.81

@@ -6,11 +6,12 @@ from typing import Final
 
 import numpy as np
 
+from apnc_core.types import Array
 from apnc_plant.chance import checked_seed
 from apnc_plant.conditions import Conditions
 from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import conditions_numbers, sensor_numbers
-from apnc_plant.robot.model import Array, Sensor
+from apnc_plant.robot.model import Sensor
 
 SHORTEST: Final = 1e-4
 """Length of a control tick [s] down to which no load under way is lost."""

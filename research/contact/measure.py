@@ -7,16 +7,14 @@ from functools import lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from apnc.loop.engines import OWN_ENGINE, plant_in
 from apnc.loop.record import Record
 from apnc.studies.robots import changed, constant
 from apnc.studies.rows import Row
+from apnc_core.types import Array
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
-
-Array = NDArray[np.float64]
 
 TICK: Final = 1 / 60
 STEPS: Final = (8, 16, 32, 64, 128, 256)

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, ImageColor, ImageDraw, ImageFont
 from scipy.interpolate import CubicSpline
 from scipy.spatial import ConvexHull
@@ -26,8 +25,8 @@ from apnc.loop.simulate import simulate
 from apnc.report import theme
 from apnc.report.skeleton import clearance, leg_chains, trunk_corners
 from apnc.summary import Summary, summarise
+from apnc_core.types import Array
 
-Array = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 """Left, top, width and height [px]."""
 

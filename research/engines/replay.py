@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from apnc.loop.engines import OWN_ENGINE, plant_in
+from apnc_core.types import Array
 from apnc_plant.robot import load_robot
 from research.contact.measure import TICK, commands
-
-Array = NDArray[np.float64]
 
 LENGTH: Final = 10.0
 """Length of a replay [s]."""

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from apnc.loop.experiment import Experiment
 from apnc.metrics.convergence import STRICT_TOLERANCE
@@ -21,10 +20,9 @@ from apnc_core import oscillator
 from apnc_core.controller import Controller
 from apnc_core.enumerations import Method
 from apnc_core.interface import Inputs, Parameters
+from apnc_core.types import Array
 from apnc_plant.plant import Plant
 from research.modes.stance import patterns
-
-Array = NDArray[np.float64]
 
 GRID: Final = 256
 

@@ -17,12 +17,10 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from apnc_core.types import Array
 from apnc_plant.kinematics import Kinematics
 from apnc_plant.robot import RobotDescription
-
-Array = NDArray[np.float64]
 
 _NAMES: Final = {
     (0, 1): "heave", (0, -1): "roll", (1, 1): "pitch", (1, -1): "twist", (2, 1): "bend",

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from apnc_core.types import Array
 from apnc_plant.chance import side_offset
 from apnc_plant.conditions import Conditions
 from apnc_plant.kinematics import Kinematics
@@ -12,8 +12,6 @@ from apnc_plant.robot import RobotDescription
 from apnc_plant.sensor.load import LoadSensor
 from apnc_plant.trace import Trace
 from research.modes.stance import stance_of
-
-Array = NDArray[np.float64]
 
 
 class SpringTrunk:

@@ -34,7 +34,7 @@ def test_an_unknown_name_is_an_attribute_error() -> None:
 def test_what_a_person_writes(tmp_path: Path) -> None:
     record = apnc.simulate(
         apnc.Experiment(
-            robot="lilibot", mi=0.15, duration=2, seed=3, ground=apnc.Ground(roughness=0.5)
+            robot="lilibot", mi=0.15, duration=2, seed=3, ground=apnc.Obstacles(roughness=0.5)
         )
     )
     summary = apnc.summarise(record)

@@ -11,7 +11,7 @@ from plants import AnyPlant
 
 from apnc_plant.compiled import KINDS, Plant
 from apnc_plant.conditions import Conditions, named_conditions
-from apnc_plant.ground import Ground, Kerb, Plane, Surface, Waves
+from apnc_plant.ground import Ground, Kerb, Obstacles, Plane, Waves
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from exudyn_models.plant import Plant as ExudynPlant
@@ -45,7 +45,7 @@ def assert_same(
     robot: RobotDescription,
     seconds: float = 2.0,
     *,
-    ground: Surface | None = None,
+    ground: Ground | None = None,
     conditions: Conditions | None = None,
     duration: float = TICK,
     options: PlantOptions | None = None,
@@ -68,15 +68,15 @@ def assert_same(
 GROUNDS = (
     Plane(),
     Plane(slope=0.1),
-    Ground(roughness=0.5, seed=3),
-    Ground(roughness=0.3, seed=1, slope=-0.05),
+    Obstacles(roughness=0.5, seed=3),
+    Obstacles(roughness=0.3, seed=1, slope=-0.05),
     Kerb(at=0.14, height=0.004),
     Waves(),
 )
 
 
 @pytest.mark.parametrize("ground", GROUNDS, ids=repr)
-def test_on_every_ground_the_robot_moves_as_in_exudyn(ground: Surface) -> None:
+def test_on_every_ground_the_robot_moves_as_in_exudyn(ground: Ground) -> None:
     assert_same(ROBOT, 10.0, ground=ground)
 
 
@@ -118,9 +118,9 @@ def test_conditions_that_change_on_the_way_are_those_of_exudyn() -> None:
 
 
 @pytest.mark.parametrize("robot", [ROBOT, LATE, load_robot("hexapod"), odd_robot()])
-@pytest.mark.parametrize("ground", [Plane(slope=0.05), Ground(roughness=0.5)], ids=repr)
+@pytest.mark.parametrize("ground", [Plane(slope=0.05), Obstacles(roughness=0.5)], ids=repr)
 def test_legs_side_by_side_have_the_bits_of_one_after_the_other(
-    robot: RobotDescription, ground: Surface
+    robot: RobotDescription, ground: Ground
 ) -> None:
     plants = [Plant(robot, 5, ground=ground, kind=kind) for kind in KINDS]
     for tick in range(120):

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from apnc_plant.channels import PlantError
 from apnc_plant.compiled import PlantInC
 from apnc_plant.forces import RobotForces
-from apnc_plant.ground import GroundInC, Kerb, Plane, Surface
+from apnc_plant.ground import Ground, GroundInC, Kerb, Plane
 from apnc_plant.library import library
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
@@ -24,7 +24,7 @@ ZERO = np.zeros(4)
 
 
 def fallen(
-    roll: float, pitch: float, yaw: float, ground: Surface | None = None, height: float = 1.0
+    roll: float, pitch: float, yaw: float, ground: Ground | None = None, height: float = 1.0
 ) -> bool:
     """Whether a robot in the air over the ground, in any attitude, counts as fallen; asked of the
     plant in C, and of the forces for other engines."""

@@ -9,7 +9,7 @@ import pytest
 
 from apnc_plant.coordinates import BASE
 from apnc_plant.forces import RobotForces
-from apnc_plant.ground import Ground, Kerb, Plane, Surface, Waves
+from apnc_plant.ground import Ground, Kerb, Obstacles, Plane, Waves
 from apnc_plant.ground.obstacles import TILE
 from apnc_plant.library import library
 from apnc_plant.numbers import contact_numbers
@@ -167,7 +167,7 @@ def by_hand(obstacles: np.ndarray, place: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_feet_are_pushed_away_from_the_centre_of_every_obstacle_they_touch(seed: int) -> None:
-    ground = Ground(roughness=1.0, seed=seed, density=200.0)
+    ground = Obstacles(roughness=1.0, seed=seed, density=200.0)
     forces = RobotForces(ROBOT, ground, np.zeros(12))
     obstacles = ground.obstacles()
     random = np.random.default_rng(seed)
@@ -181,8 +181,8 @@ def test_feet_are_pushed_away_from_the_centre_of_every_obstacle_they_touch(seed:
 
 
 def test_obstacles_go_on_without_end() -> None:
-    forces = RobotForces(ROBOT, Ground(roughness=1.0), np.zeros(12))
-    x, y, z, radius = Ground(roughness=1.0).obstacles()[5]
+    forces = RobotForces(ROBOT, Obstacles(roughness=1.0), np.zeros(12))
+    x, y, z, radius = Obstacles(roughness=1.0).obstacles()[5]
     near = np.array([x + 0.003, y, z + radius + 0.0118])
     far = near + np.array([250 * TILE, -100 * TILE, 0.0])
     assert np.linalg.norm(one_foot_at(forces, near)) > 5e-5 * ROBOT.contact.stiffness
@@ -190,7 +190,7 @@ def test_obstacles_go_on_without_end() -> None:
 
 
 def test_no_ground_is_missed_at_the_seam_of_cells() -> None:
-    forces = RobotForces(ROBOT, Ground(roughness=1.0), np.zeros(12))
+    forces = RobotForces(ROBOT, Obstacles(roughness=1.0), np.zeros(12))
     of_the_plane = 0.001 * ROBOT.contact.stiffness
     for x in (-1e-20, 0.0, TILE, -TILE, np.nextafter(TILE, 0.0)):
         assert one_foot_at(forces, np.array([x, -1e-20, 0.011]))[2] >= of_the_plane - 1e-6
@@ -199,14 +199,14 @@ def test_no_ground_is_missed_at_the_seam_of_cells() -> None:
 GROUNDS = (
     Plane(),
     Plane(slope=0.2),
-    Ground(roughness=1.0, seed=4),
+    Obstacles(roughness=1.0, seed=4),
     Kerb(at=0.1, height=0.006, length=0.05),
     Waves(amplitude=0.004, wavelength=0.2),
 )
 
 
 @pytest.mark.parametrize("ground", GROUNDS, ids=repr)
-def test_the_compiled_touch_of_every_ground_is_the_one_in_python(ground: Surface) -> None:
+def test_the_compiled_touch_of_every_ground_is_the_one_in_python(ground: Ground) -> None:
     forces = RobotForces(ROBOT, ground, np.zeros(12))
     random = np.random.default_rng(0)
     stiffness, radius = ROBOT.contact.stiffness, ROBOT.contact.foot_radius

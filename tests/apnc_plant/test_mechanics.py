@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from plants import Kind, in_both
 
-from apnc_plant.ground import Ground
+from apnc_plant.ground import Obstacles
 from apnc_plant.robot import load_robot
 
 TICK = 1 / 60
@@ -20,7 +20,7 @@ ANGLE = math.atan(0.3)
 
 def slide(kind: Kind, slope: float, seconds: float) -> tuple[np.ndarray, np.ndarray]:
     """Speed along the slope at the ends of two halves of a time on it [m/s]."""
-    plant = kind(SLIPPERY, ground=Ground(slope=slope))
+    plant = kind(SLIPPERY, ground=Obstacles(slope=slope))
     speeds = []
     for _ in range(2):
         for _ in range(round(seconds / 2 / TICK)):
@@ -55,13 +55,13 @@ def test_above_the_friction_angle_the_robot_slides_away(kind: Kind) -> None:
 @in_both
 def test_on_a_slope_the_feet_carry_weight_and_downhill_force(kind: Kind) -> None:
     slope = 0.15
-    plant = kind(ROBOT, ground=Ground(slope=slope))
+    plant = kind(ROBOT, ground=Obstacles(slope=slope))
     for _ in range(120):
         plant.advance(ZERO, ZERO, TICK)
     force = plant.sample()["foot_force"].sum(axis=0)
     np.testing.assert_allclose(force, [0.0, 0.0, ROBOT.weight], atol=1e-3 * ROBOT.weight)
     quiet = replace(ROBOT, sensor=replace(ROBOT.sensor, noise=0.0))
-    plant = kind(quiet, ground=Ground(slope=slope))
+    plant = kind(quiet, ground=Obstacles(slope=slope))
     for _ in range(120):
         plant.advance(ZERO, ZERO, TICK)
     assert plant.grf().sum() == pytest.approx(ROBOT.weight * math.cos(slope), rel=1e-3)
@@ -71,7 +71,7 @@ def test_on_a_slope_the_feet_carry_weight_and_downhill_force(kind: Kind) -> None
 @in_both
 @pytest.mark.parametrize("seed", range(3))
 def test_on_obstacles_the_robot_settles_without_a_jump(kind: Kind, seed: int) -> None:
-    plant = kind(ROBOT, ground=Ground(roughness=1.0, seed=seed))
+    plant = kind(ROBOT, ground=Obstacles(roughness=1.0, seed=seed))
     assert plant.sample()["foot_force"].max() < 0.1
     for _ in range(180):
         plant.advance(ZERO, ZERO, TICK)
@@ -82,7 +82,7 @@ def test_on_obstacles_the_robot_settles_without_a_jump(kind: Kind, seed: int) ->
 @in_both
 def test_the_robot_falls_as_gravity_along_a_frictionless_slope(kind: Kind) -> None:
     icy = replace(ROBOT, contact=replace(ROBOT.contact, friction=0.0))
-    plant = kind(icy, ground=Ground(slope=0.1))
+    plant = kind(icy, ground=Obstacles(slope=0.1))
     for _ in range(60):
         plant.advance(ZERO, ZERO, TICK)
     speed = np.linalg.norm(plant.sample()["velocity"])

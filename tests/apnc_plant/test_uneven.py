@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from plants import AnyPlant, Kind, in_both
 
-from apnc_plant.ground import Kerb, Surface, Waves
+from apnc_plant.ground import Ground, Kerb, Waves
 from apnc_plant.robot import load_robot
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
 
 
-def settled(kind: Kind, ground: Surface) -> AnyPlant:
+def settled(kind: Kind, ground: Ground) -> AnyPlant:
     plant = kind(ROBOT, ground=ground)
     for _ in range(120):
         plant.advance(np.zeros(4), np.zeros(4), TICK)

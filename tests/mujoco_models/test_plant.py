@@ -12,7 +12,7 @@ from odd_robot import odd_robot
 
 from apnc_plant.channels import PlantError
 from apnc_plant.conditions import Conditions, named_conditions
-from apnc_plant.ground import Ground, Plane
+from apnc_plant.ground import Obstacles, Plane
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from exudyn_models.plant import Plant as ExudynPlant
@@ -50,7 +50,7 @@ def test_the_mass_matrix_is_that_of_exudyn(robot: RobotDescription) -> None:
 
 
 def test_seed_conditions_and_sensor_are_those_of_every_plant() -> None:
-    fine, ground = PlantOptions(step=TICK / 512), Ground(roughness=0.5, seed=2)
+    fine, ground = PlantOptions(step=TICK / 512), Obstacles(roughness=0.5, seed=2)
     ours, theirs = (
         P(ROBOT, 5, options=fine, conditions=named_conditions("C4"), ground=ground)
         for P in (Plant, ExudynPlant)

@@ -8,17 +8,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from made_up_rows import Row, made_up
-from numpy.typing import NDArray
 from records import synthetic_record
 
 from apnc.studies.engine import grid_of
+from apnc_core.types import Array
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import load_robot
 from research import contact
 from research.contact.measure import Trot, chatter, errors, touch_down
 from research.registry import STUDIES
 
-Array = NDArray[np.float64]
 LILIBOT = load_robot("lilibot")
 
 

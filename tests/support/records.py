@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import End, Record
+from apnc_core.types import Array
 from apnc_plant.robot.file import load_robot
-
-Array = NDArray[np.float64]
 
 QUADRUPED = ("RF", "RH", "LF", "LH")
 HEXAPOD = ("RF", "RM", "RH", "LF", "LM", "LH")

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from apnc_core.types import Array
+
 pin = pytest.importorskip("pinocchio", reason="pinocchio is missing (PyPI package pin)")
 
 BASE = 6
-Array = np.ndarray
 
 
 def _inertia(body: Any) -> Any:

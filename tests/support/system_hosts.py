@@ -16,9 +16,8 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from apnc_core.types import Array
 
 TICK: Final = 1.0 / 60.0
 SYSTEM: Final = "Lilibot"

@@ -6,11 +6,9 @@ import base64
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from apnc.report.figure import Figure
-
-Array = NDArray[np.float64]
+from apnc_core.types import Array
 
 
 def numbers(packed: Any) -> Array:

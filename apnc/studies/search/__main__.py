@@ -15,14 +15,12 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from numpy.typing import NDArray
 
 from apnc.studies.search.command import run, tracked
 from apnc.studies.search.costs import costs_of, names
 from apnc.studies.search.knobs import Candidate, Knob, knobs_of, start
+from apnc_core.types import Array
 from apnc_plant.robot import load_robot
-
-Array = NDArray[np.float64]
 
 
 def search(

@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from apnc import metrics
 from apnc.loop.experiment import Experiment, Setting
@@ -22,10 +21,9 @@ from apnc.studies.search.knobs import Candidate, built_robot, gains
 from apnc.studies.states.measure import STOPPED, judge
 from apnc.studies.states.timeline import Timeline
 from apnc.studies.study import COURSE_MI, WALK_MI
+from apnc_core.types import Array
 from apnc_plant.conditions import ALL, Conditions
 from apnc_plant.robot import RobotDescription, load_robot
-
-Array = NDArray[np.float64]
 
 FAILED: Final = 10.0
 

@@ -16,13 +16,14 @@ from apnc.loop.steps import steps_of
 from apnc.report import theme
 from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
-from apnc.report.panels import Array, Run, line, stacked
+from apnc.report.panels import Run, line, stacked
 from apnc.studies.plots import COLOURS, side_by_side
 from apnc.studies.rows import Row, matching, values
 from apnc.studies.sections import Section, marked
 from apnc.studies.steering.course import SPEED, SPEEDS, YAW_RATE, experiment
 from apnc.studies.study import Robot
 from apnc.summary import summarise
+from apnc_core.types import Array
 
 WAYS: Final = ("straight", "right", "left", "straight again")
 """What the robot is told to do in each section of the course of turns."""

@@ -27,7 +27,7 @@ from apnc.studies.registry import STUDIES
 from apnc.studies.rows import Row, successes, values
 from apnc.studies.statistics import compare_rates, compare_spread, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others
-from apnc_plant.ground import Ground
+from apnc_plant.ground import Obstacles
 
 ROUGHNESS: Final = (0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 1.0)
 OTHERS_ROUGHNESS: Final = (0.0, 0.4, 0.8, 0.9, 1.0)
@@ -36,7 +36,7 @@ OTHERS_ROUGHNESS: Final = (0.0, 0.4, 0.8, 0.9, 1.0)
 
 def experiment(seed: int, roughness: float, **fields: Any) -> Experiment:
     """A walk over obstacles."""
-    ground = Ground(roughness=roughness, seed=seed)
+    ground = Obstacles(roughness=roughness, seed=seed)
     return Experiment(seed=seed, ground=ground, mi=WALK_MI, duration=WALK_S, **fields)
 
 

@@ -16,7 +16,7 @@ import typer
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from apnc import Experiment, Gait, Ground, Kerb, Plane, Waves, write_gait
+from apnc import Experiment, Gait, Kerb, Obstacles, Plane, Waves, write_gait
 from apnc.cli.app import app
 from apnc.cli.walk import experiment_of
 from apnc.loop.provenance import what_was_run
@@ -56,8 +56,8 @@ SETTINGS = st.fixed_dictionaries({}, optional={v.name: value_of(v) for v in PARA
 SLOPES = st.floats(-1.5, 1.5)
 GROUNDS = st.one_of(
     st.builds(Plane, slope=SLOPES),
-    st.builds(Ground, slope=SLOPES, roughness=st.floats(0, 1), seed=st.integers(0, 10**9)),
-    st.builds(Ground, diameters=st.tuples(st.floats(0.026, 0.05), st.floats(0.05, 1))),
+    st.builds(Obstacles, slope=SLOPES, roughness=st.floats(0, 1), seed=st.integers(0, 10**9)),
+    st.builds(Obstacles, diameters=st.tuples(st.floats(0.026, 0.05), st.floats(0.05, 1))),
     st.builds(Kerb, at=st.floats(-9, 9), height=st.floats(1e-4, 1.0)),
     st.builds(Waves),
 )
@@ -123,7 +123,7 @@ def test_no_option_is_the_default_experiment_and_the_help_tells_its_values() -> 
 
 def test_short_forms_of_the_ground() -> None:
     assert said("--slope", "5").ground == Plane(slope=math.radians(5))
-    assert said("--roughness", "0.5", "--seed", "3").ground == Ground(roughness=0.5, seed=3)
+    assert said("--roughness", "0.5", "--seed", "3").ground == Obstacles(roughness=0.5, seed=3)
     steep = said("--ground", "kerb:height=0.01", "--slope", "-5").ground
     assert steep == Kerb(height=0.01, slope=math.radians(-5))
 

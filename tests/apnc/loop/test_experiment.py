@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from apnc import Conditions, Experiment, Ground, load_robot
+from apnc import Conditions, Experiment, Obstacles, load_robot
 from apnc.loop.code import code_hash, hash_of_package
 from apnc.loop.plain import plain
 from apnc.loop.provenance import what_was_run
@@ -98,8 +98,8 @@ CHANGES: list[dict[str, Any]] = [
     {"method": "apc"},
     {"preset": "paper"},
     {"settings": {"xi": 0.05}},
-    {"ground": Ground(roughness=0.5)},
-    {"ground": Ground(roughness=0.5, seed=1)},
+    {"ground": Obstacles(roughness=0.5)},
+    {"ground": Obstacles(roughness=0.5, seed=1)},
     {"conditions": "C2"},
     {"turn": 0.1},
     {"reset": True},
@@ -212,7 +212,7 @@ OBJECTS = Experiment(
     mi=[[0, 0.1], [5, 0.2]],  # type: ignore[arg-type]  # lists, as from JSON
     settings={"xi": 0.05, "phi_stored": [1, 2, 3, 1, 1]},
     conditions=((0, "C1"), (3, Conditions(stuck={"RF": 0.9}, damaged=["LH"]))),  # type: ignore[arg-type]
-    ground=Ground(roughness=0.3),
+    ground=Obstacles(roughness=0.3),
     duration=10,
 )
 

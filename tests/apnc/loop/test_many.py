@@ -19,7 +19,7 @@ from apnc.loop.many import compiled, simulate_many, walk_many
 from apnc.loop.record import End, Record
 from apnc.loop.simulate import simulate
 from apnc.summary import summarise
-from apnc_plant.ground import Ground, Kerb
+from apnc_plant.ground import Kerb, Obstacles
 from apnc_plant.robot import load_robot
 
 WALK = Experiment(engine="compiled", mi=0.15, duration=1.5)
@@ -37,7 +37,7 @@ def several() -> list[Experiment]:
         replace(WALK, robot=top_heavy, duration=5.0),
         replace(WALK, robot="hexapod"),
         replace(WALK, rate=30.0, conditions=((0.0, "S1"), (0.5, "C2"))),
-        replace(WALK, ground=Ground(roughness=0.8, seed=3)),
+        replace(WALK, ground=Obstacles(roughness=0.8, seed=3)),
         replace(WALK, ground=Kerb(at=0.05, height=0.004)),
         replace(WALK, settings={"xi": 0.05}, method="tegotae", turn=((0.0, 0.0), (0.7, 1.0))),
     ]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from apnc import Conditions, End, Experiment, Ground, Plane, simulate
+from apnc import Conditions, End, Experiment, Obstacles, Plane, simulate
 from apnc_plant.conditions import CONDITIONS
 from apnc_plant.plant import PlantError
 from apnc_plant.trace import Trace
@@ -131,7 +131,7 @@ def test_the_parameters_reach_the_controller() -> None:
 def test_seed_and_ground_reach_the_plant() -> None:
     walks = [
         simulate(Experiment(duration=1.0, seed=seed, ground=ground))
-        for seed, ground in ((0, Plane()), (1, Plane()), (0, Ground(roughness=1.0)))
+        for seed, ground in ((0, Plane()), (1, Plane()), (0, Obstacles(roughness=1.0)))
     ]
     places = [walk.plant["foot_position"] for walk in walks]
     assert not np.array_equal(places[0], places[1])

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from records import FOOT_RADIUS, QUADRUPED, synthetic_record
 from traces import axis_of, numbers
 
@@ -16,9 +15,9 @@ from apnc.report import figures, theme
 from apnc.report.figure import Figure
 from apnc.report.panels import Run
 from apnc.summary import summarise
-from apnc_plant.ground import Ground, Kerb, Plane, Surface
+from apnc_core.types import Array
+from apnc_plant.ground import Ground, Kerb, Obstacles, Plane
 
-Array = NDArray[np.float64]
 PHASES = (0.5, 1.5, 2.5)
 
 
@@ -50,7 +49,7 @@ def drawn(key: str, record: Record = RECORD, **summary: Any) -> Figure:
     return {f.key: f for f in figures.all_figures(run)}[key]
 
 
-def on(ground: Surface, record: Record = RECORD) -> Record:
+def on(ground: Ground, record: Record = RECORD) -> Record:
     return replace(record, experiment=replace(record.experiment, ground=ground))
 
 
@@ -246,7 +245,7 @@ def test_yaw_goes_on_beyond_half_a_turn() -> None:
         (Kerb(at=0.3, height=0.006), lambda x: np.where(x >= 0.3, 0.006, 0.0)),
     ],
 )
-def test_clearance_is_the_height_of_the_sole_over_the_ground(ground: Surface, below: Any) -> None:
+def test_clearance_is_the_height_of_the_sole_over_the_ground(ground: Ground, below: Any) -> None:
     figure = drawn("clearance", on(ground))
     for i, (leg, trace) in enumerate(zip(QUADRUPED, figure.data, strict=True)):
         x, _, z = RECORD.plant["foot_position"][:, i].T
@@ -258,7 +257,7 @@ def test_clearance_is_measured_along_the_normal_of_a_slope() -> None:
     record = synthetic_record(1.0)
     record.plant["foot_position"][:] = [1.0, 0.0, 0.5]
     gap = np.array([1.0, 0.5]) @ [-np.sin(0.1), np.cos(0.1)] - FOOT_RADIUS
-    for trace in drawn("clearance", on(Ground(slope=0.1), record)).data:
+    for trace in drawn("clearance", on(Obstacles(slope=0.1), record)).data:
         assert y(trace) == pytest.approx(1000 * gap, abs=1e-3)
 
 

@@ -21,7 +21,7 @@ from apnc.report.skeleton import leg_chains, trunk_corners
 from apnc.report.wording import facts, heading, rows, verdicts
 from apnc.summary import Summary, summarise
 from apnc_plant.conditions import Conditions
-from apnc_plant.ground import Ground
+from apnc_plant.ground import Obstacles
 
 KEYS = {
     *("gait", "phi", "speed", "path", "trunk", "clearance", "grf", "cpg"),
@@ -41,7 +41,7 @@ def diverged(seconds: float = 5.0, broken: int = 20) -> Record:
 
 def long_run() -> Record:
     record = synthetic_record((SHOWN + 600) / 60.0)
-    ground = Ground(roughness=0.5)
+    ground = Obstacles(roughness=0.5)
     return replace(record, experiment=replace(record.experiment, ground=ground))
 
 
@@ -161,7 +161,7 @@ def test_the_ground_is_drawn_as_its_lines_say(tmp_path: Path) -> None:
     colours = []
     for roughness in (0.0, 1.0):
         record = synthetic_record(2.0)
-        ground = Ground(roughness=roughness)
+        ground = Obstacles(roughness=roughness)
         record = replace(record, experiment=replace(record.experiment, ground=ground))
         pause = (
             "<script>window.apncProbe = (painted) => { apnc.player.pause(); apnc.player.seek(1);"
@@ -327,7 +327,7 @@ def test_heading_says_what_is_not_default() -> None:
         preset="paper",
         mi=((0.0, 0.15), (25.0, 0.4)),
         conditions="C4",
-        ground=Ground(roughness=0.5),
+        ground=Obstacles(roughness=0.5),
         settings={"xi": 0.05},
         rate=50.0,
     )
@@ -344,7 +344,7 @@ def test_facts_name_robot_preset_condition_ground_parameters_and_memory() -> Non
     experiment = replace(
         record.experiment,
         conditions="C4",
-        ground=Ground(roughness=0.5),
+        ground=Obstacles(roughness=0.5),
         settings={"xi": 0.05, "stored": True, "phi_stored": (3.0, 3.0, 0.0)},
     )
     found = dict(facts(replace(record, experiment=experiment)))

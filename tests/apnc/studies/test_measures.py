@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from records import TRIPOD, TROT, outputs, synthetic_record
 
 from apnc.loop.record import End, Record
@@ -19,7 +18,6 @@ from apnc.studies.rows import Row
 from apnc.studies.states.measure import as_paper_says, judge, measure
 from apnc.studies.states.timeline import TIMELINE, Timeline
 
-Array = NDArray[np.float64]
 PRONK = (0.0, 0.0, 0.0)
 
 # --- S1 to S3 ----------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from records import synthetic_record
-from traces import Array, axis_of, numbers
+from traces import axis_of, numbers
 
 from apnc.loop.record import Record
 from apnc.report import theme
@@ -17,6 +17,7 @@ from apnc.studies.states.figures import broken, over_time
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.steering.course import experiment
 from apnc.studies.steering.figures import WAYS, path, speeds_over_time, turns_over_time
+from apnc_core.types import Array
 
 
 def rows(figure: Figure) -> dict[str, list[dict[str, Any]]]:

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from records import TROT, synthetic_record
 
 from apnc import metrics
@@ -52,9 +51,8 @@ from apnc.studies.search.front import (
     walks_of,
 )
 from apnc.studies.search.knobs import KNOBS, OWN, built_robot, gains, knobs_of, start
+from apnc_core.types import Array
 from apnc_plant.robot import ROBOTS, load_robot
-
-Array = NDArray[np.float64]
 
 LILIBOT = load_robot("lilibot")
 

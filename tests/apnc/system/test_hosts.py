@@ -22,13 +22,13 @@ import pytest
 from compilers import STRICT, run, tool
 from coupled_loop import walk
 from native_driver import runner
-from numpy.typing import NDArray
 
 from apnc import Experiment, metrics, simulate
 from apnc.system.build import build_system
 from apnc.system.structure import structure_of
+from apnc_core.types import Array
 from apnc_plant.conditions import Conditions
-from apnc_plant.ground import Ground
+from apnc_plant.ground import Obstacles
 from build_fmu.platforms import PLATFORMS, host_platform
 
 SECONDS = 12.0
@@ -63,12 +63,12 @@ def folder(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
     return build_system(output, EXPERIMENT, request.param)
 
 
-def looped(folder: Path, **delays: Any) -> dict[str, NDArray[np.float64]]:
+def looped(folder: Path, **delays: Any) -> dict[str, Array]:
     naming = "flat" if "flat" in str(folder) else "structured"
     return walk(folder, structure_of(EXPERIMENT, naming), SECONDS, **delays)
 
 
-def assert_trots(phases: NDArray[np.float64]) -> None:
+def assert_trots(phases: Array) -> None:
     off = metrics.wrap(np.subtract(phases, metrics.default_target(4)))
     assert np.abs(off).max() < metrics.STRICT_TOLERANCE, phases
 
@@ -206,7 +206,7 @@ STORED = {"stored": True, "phi_stored": (3.1, 3.2, 0.1)}
 OTHERS = {
     "everything": Experiment(
         mi=0.2, seed=5, turn=0.3, settings=STORED, method="apnc", step=1 / 1920, duration=SECONDS,
-        ground=Ground(slope=0.05, roughness=0.5, seed=5), conditions=Conditions(payload=0.3),
+        ground=Obstacles(slope=0.05, roughness=0.5, seed=5), conditions=Conditions(payload=0.3),
     ),
     "enumeration": Experiment(mi=0.15, seed=2, method="tegotae", conditions="C2", duration=SECONDS),
     "six legs": Experiment(mi=0.15, robot="hexapod", seed=3, duration=SECONDS),

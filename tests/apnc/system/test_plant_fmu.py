@@ -31,7 +31,7 @@ from apnc_plant import generate
 from apnc_plant.channels import PLANT_CHANNELS
 from apnc_plant.compiled import Plant
 from apnc_plant.conditions import CONDITIONS
-from apnc_plant.ground import Ground, Plane
+from apnc_plant.ground import Obstacles, Plane
 from apnc_plant.robot import ROBOTS, load_robot
 from apnc_plant.variables import COMMANDS, TABLE, Condition
 from build_fmu.platforms import host_platform
@@ -182,7 +182,7 @@ def test_every_output_is_that_of_the_plant_stepped_directly(
     direct = Plant(
         load_robot("lilibot"),
         seed,
-        ground=Ground(slope=slope, roughness=rough, seed=seed) if rough else Plane(slope=slope),
+        ground=Obstacles(slope=slope, roughness=rough, seed=seed) if rough else Plane(slope=slope),
         conditions=replace(conditions, payload=payload),
     )
     names = [c for channel in PLANT_CHANNELS for c in channel.columns(

@@ -22,7 +22,7 @@ from apnc.system.structure import structure_of
 from apnc_core.enumerations import Method
 from apnc_core.interface import Parameters
 from apnc_plant.conditions import CONDITIONS, Conditions
-from apnc_plant.ground import Ground, Plane, Waves
+from apnc_plant.ground import Obstacles, Plane, Waves
 from apnc_plant.variables import Condition
 
 SSP = "{http://ssp-standard.org/SSP1/SystemStructureDescription}"
@@ -163,7 +163,7 @@ def test_the_plant_starts_as_the_experiment_says() -> None:
         for name, value in vars(getattr(robot, part)).items():
             if name != "component":
                 assert usual[f"{part}.{name}"] == value
-    ground = Ground(slope=0.1, roughness=0.5, seed=7)
+    ground = Obstacles(slope=0.1, roughness=0.5, seed=7)
     own = Experiment(ground=ground, seed=7, step=1 / 480, conditions="S3")
     changed = {"seed": 7, "roughness": 0.5, "slope": 0.1, "step": 1 / 480, "condition": 7}
     assert plant_starts(own, servo_stiffness=20.0) == usual | changed | {"servo.stiffness": 20.0}
@@ -193,8 +193,8 @@ def test_a_payload_comes_on_top_of_a_condition(
         (Experiment(turn=((0.0, 0.0), (5.0, 0.5))), "turn = "),
         (Experiment(reset=True), "reset = True"),
         (Experiment(seed=4294967299), "seed = 4294967299 of a system; allowed: 0 to 2147483647"),
-        (Experiment(ground=Ground(roughness=0.5, seed=3)), "ground = obstacles:"),
-        (Experiment(ground=Ground(roughness=0.5, density=9.0)), "ground = obstacles:"),
+        (Experiment(ground=Obstacles(roughness=0.5, seed=3)), "ground = obstacles:"),
+        (Experiment(ground=Obstacles(roughness=0.5, density=9.0)), "ground = obstacles:"),
         (Experiment(ground=Waves()), "ground = waves"),
         (Experiment(ground=Plane(slope=1.55)), "slope = 1.55; allowed: a number from -1.5 to 1.5"),
         (Experiment(conditions=Conditions(grf_noise=0.1)), "conditions = "),

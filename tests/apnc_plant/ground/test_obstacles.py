@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from apnc_plant.ground import Ground
+from apnc_plant.ground import Obstacles
 from apnc_plant.ground.obstacles import STEP_HEIGHT, TILE
 
 
 @pytest.mark.parametrize("roughness", [0.2, 1.0])
 def test_obstacles_have_the_height_and_density_asked_for(roughness: float) -> None:
-    ground = Ground(roughness=roughness, seed=3)
+    ground = Obstacles(roughness=roughness, seed=3)
     balls = ground.obstacles()
     np.testing.assert_allclose(balls[:, 2] + balls[:, 3], roughness * STEP_HEIGHT, atol=1e-15)
     assert len(balls) == 960
@@ -24,7 +24,7 @@ def test_obstacles_have_the_height_and_density_asked_for(roughness: float) -> No
 
 def test_obstacles_cover_the_share_of_ground_that_chance_gives() -> None:
     # Caps of base radius a thrown at random leave free a share of exp(-density pi E[a^2]).
-    ground = Ground(roughness=1.0, seed=7)
+    ground = Obstacles(roughness=1.0, seed=7)
     balls = ground.obstacles()
     base = balls[:, 3] ** 2 - balls[:, 2] ** 2
     free = math.exp(-ground.density * math.pi * base.mean())
@@ -36,13 +36,13 @@ def test_obstacles_cover_the_share_of_ground_that_chance_gives() -> None:
 
 
 def test_obstacles_are_seeded() -> None:
-    same, other = Ground(roughness=1.0, seed=1), Ground(roughness=1.0, seed=2)
-    np.testing.assert_array_equal(same.obstacles(), Ground(roughness=1.0, seed=1).obstacles())
+    same, other = Obstacles(roughness=1.0, seed=1), Obstacles(roughness=1.0, seed=2)
+    np.testing.assert_array_equal(same.obstacles(), Obstacles(roughness=1.0, seed=1).obstacles())
     assert not np.array_equal(same.obstacles(), other.obstacles())
 
 
 def test_contacts_are_those_with_every_ball_one_by_one() -> None:
-    ground, radius = Ground(roughness=1.0, seed=2, density=200.0), 0.012
+    ground, radius = Obstacles(roughness=1.0, seed=2, density=200.0), 0.012
     random = np.random.default_rng(0)
     several = 0
     for _ in range(200):
@@ -65,28 +65,28 @@ def test_rough_ground_is_rough() -> None:
     # A walk's length meets obstacles that are as high as the roughness says, and no higher.
     x = np.linspace(0.0, 4.0, 400)
     for roughness in (0.2, 1.0):
-        ground = Ground(roughness=roughness, seed=1)
+        ground = Obstacles(roughness=roughness, seed=1)
         heights = np.array([ground.elevation(x, np.array(y)) for y in np.arange(0.0, 4.0, 0.25)])
         assert heights.max() == pytest.approx(roughness * STEP_HEIGHT, rel=0.05)
         base = ground.obstacles()[:, 3] ** 2 - ground.obstacles()[:, 2] ** 2
         share = 1.0 - math.exp(-ground.density * math.pi * base.mean())
         assert (heights > 0.0).mean() == pytest.approx(share, rel=0.25)
         assert heights.max() <= ground.top
-    assert Ground(roughness=0.0).elevation(x, np.array(0.0)).max() == 0.0
+    assert Obstacles(roughness=0.0).elevation(x, np.array(0.0)).max() == 0.0
 
 
 def test_a_ball_comes_to_rest_on_the_highest_obstacle_below_it() -> None:
-    ground, radius = Ground(roughness=1.0, seed=1), 0.012
+    ground, radius = Obstacles(roughness=1.0, seed=1), 0.012
     x, y, z, ball = ground.obstacles()[7]
     assert ground.rest_height(x + TILE, y, radius) >= z + ball + radius - 1e-12
-    near = Ground(roughness=1.0, seed=1, density=0.1)
+    near = Obstacles(roughness=1.0, seed=1, density=0.1)
     x, y, z, ball = near.obstacles()[0]
     beside = math.sqrt((ball + radius) ** 2 - 0.01**2) + z
     assert near.rest_height(x + 0.006, y - 0.008, radius) == pytest.approx(max(beside, radius))
 
 
 def test_the_drawing_shows_every_obstacle_that_is_there() -> None:
-    ground = Ground(roughness=1.0, seed=1)
+    ground = Obstacles(roughness=1.0, seed=1)
     lines = ground.lines(3.0, 5.0, -1.0, 1.0)
     points = np.vstack([line for line in lines if len(line) in (9, 17)])
     x, y, z = points.T
@@ -117,4 +117,4 @@ def test_the_drawing_shows_every_obstacle_that_is_there() -> None:
 )
 def test_ground_out_of_range_is_refused(values: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        Ground(**values)  # type: ignore[arg-type]
+        Obstacles(**values)  # type: ignore[arg-type]

@@ -16,7 +16,7 @@ from plants import Kind, in_both
 
 import apnc
 from apnc_plant.compiled import Plant
-from apnc_plant.ground import GroundInC, Numbers, Plane, Surface
+from apnc_plant.ground import Ground, GroundInC, Numbers, Plane
 from apnc_plant.robot import load_robot
 
 TICK = 1 / 60
@@ -24,7 +24,7 @@ ROBOT = load_robot("lilibot")
 RADIUS = ROBOT.contact.foot_radius
 
 
-class Own(Surface):
+class Own(Ground):
     """The plane once more, with a touch function of its own."""
 
     kind: ClassVar[str] = "own"
@@ -51,7 +51,7 @@ int32_t touch(double x, double y, double z, double radius, const double *reals,
 
 
 @pytest.fixture(scope="module")
-def own_in_c(tmp_path_factory: pytest.TempPathFactory) -> Surface:
+def own_in_c(tmp_path_factory: pytest.TempPathFactory) -> Ground:
     """The same in C; it reads numbers of its own."""
     folder: Path = tmp_path_factory.mktemp("own")
     (folder / "own.c").write_text(SOURCE)
@@ -67,7 +67,7 @@ def own_in_c(tmp_path_factory: pytest.TempPathFactory) -> Surface:
     return InC()
 
 
-def walked(kind: Kind, ground: Surface) -> dict[str, np.ndarray]:
+def walked(kind: Kind, ground: Ground) -> dict[str, np.ndarray]:
     plant = kind(ROBOT, 1, ground=ground)
     for tick in range(60):
         swing = 0.1 * np.sin(0.12 * tick) * np.array([1.0, -1.0, -1.0, 1.0])
@@ -77,7 +77,7 @@ def walked(kind: Kind, ground: Surface) -> dict[str, np.ndarray]:
 
 
 @in_both
-def test_in_python_and_in_c_it_carries_as_the_plane_does(kind: Kind, own_in_c: Surface) -> None:
+def test_in_python_and_in_c_it_carries_as_the_plane_does(kind: Kind, own_in_c: Ground) -> None:
     plane = walked(kind, Plane(slope=0.05))
     assert plane["foot_force"].max() > 1.0
     in_c = type(own_in_c)(slope=0.05)
@@ -86,7 +86,7 @@ def test_in_python_and_in_c_it_carries_as_the_plane_does(kind: Kind, own_in_c: S
             np.testing.assert_allclose(values, plane[name], atol=1e-11, err_msg=name)
 
 
-def test_it_is_asked_for_contacts_and_heights_like_any_other(own_in_c: Surface) -> None:
+def test_it_is_asked_for_contacts_and_heights_like_any_other(own_in_c: Ground) -> None:
     for ground in (Own(), own_in_c):
         np.testing.assert_array_equal(
             ground.contacts((1.0, 2.0, 0.01), RADIUS), [[0.0, 0.0, 1.0, RADIUS - 0.01]]
@@ -201,7 +201,7 @@ def test_what_is_no_list_of_places_is_refused(
 
 def test_a_ground_without_a_touch_function_is_refused() -> None:
     class Nothing(Own):
-        touch = Surface.touch
+        touch = Ground.touch
 
     with pytest.raises(ValueError, match="ground 'own' has neither a method touch nor the address"):
         Plant(ROBOT, ground=Nothing())

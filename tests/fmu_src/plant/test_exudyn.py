@@ -10,7 +10,7 @@ import pytest
 import apnc
 from apnc_plant.compiled import Plant as PlantInC
 from apnc_plant.conditions import Conditions
-from apnc_plant.ground import Ground, Kerb, Plane, Surface, Waves
+from apnc_plant.ground import Ground, Kerb, Obstacles, Plane, Waves
 from apnc_plant.robot import RobotDescription, load_robot
 from exudyn_models.plant import Plant as PlantInExudyn
 
@@ -51,7 +51,7 @@ class Walk:
     def __init__(
         self,
         robot: RobotDescription,
-        ground: Surface | None = None,
+        ground: Ground | None = None,
         conditions: Conditions | None = None,
     ) -> None:
         """Walk, and compare every channel at every tick."""
@@ -84,13 +84,13 @@ class Walk:
         Plane(),
         Plane(slope=0.1),
         Plane(slope=-0.1),
-        Ground(roughness=0.5, seed=2),
+        Obstacles(roughness=0.5, seed=2),
         Kerb(at=0.25, height=0.006, length=0.2),
         Waves(),
     ],
-    ids=Surface.text,
+    ids=Ground.text,
 )
-def test_it_walks_as_in_exudyn(name: str, ground: Surface) -> None:
+def test_it_walks_as_in_exudyn(name: str, ground: Ground) -> None:
     walk = Walk(load_robot(name), ground)
     last, first = walk.feet
     assert first > 0.3

@@ -13,15 +13,15 @@ from typing import Any, ClassVar, Final, get_args, get_origin, get_type_hints
 import numpy as np
 
 from apnc_core.in_python import in_python
+from apnc_core.types import Array
 from apnc_plant.ground.in_c import GroundInC, Numbers
-from apnc_plant.robot.model import Array
 
 GRID: Final = 0.1
 """Distance between the lines a ground is drawn with [m]."""
 
 
 @dataclass(frozen=True)
-class Surface(ABC):
+class Ground(ABC):
     """A ground: how high it is and where a ball touches it, in its own frame.
 
     The frame is the world's, turned about y by ``slope``; z points out of the ground, and the plane
@@ -102,7 +102,7 @@ class Surface(ABC):
     @property
     def touches_itself(self) -> bool:
         """Whether it has a touch function of its own, in Python or by address."""
-        return type(self).touch is not Surface.touch or self.address != 0
+        return type(self).touch is not Ground.touch or self.address != 0
 
     def rotation(self) -> Array:
         """Rotation from ground to world, shape (3, 3); its last column is the normal."""
@@ -138,7 +138,7 @@ class Surface(ABC):
 
         Points are 1 cm apart, so a vertical face is drawn as a slope of 1 cm: a ground with faces
         overrides :meth:`_line` and adds both ends of each, as ``Kerb`` does, or ``lines`` as a
-        whole, as ``Ground`` does.
+        whole, as ``Obstacles`` does.
         """
         lines = [self._line(self._stations(x0, x1), [y]) for y in _multiples(y0, y1)]
         return lines + [
@@ -158,7 +158,7 @@ class Surface(ABC):
         return np.column_stack([xs, ys, self.elevation(xs, ys)])
 
     def text(self) -> str:
-        """Kind and fields that are not the default, as :func:`surface` reads them."""
+        """Kind and fields that are not the default, as :func:`parse_ground` reads them."""
         default = type(self)()
         words = [
             f"{f.name}={':'.join(map(str, value)) if isinstance(value, tuple) else value}"
@@ -175,15 +175,15 @@ class Surface(ABC):
         }
 
 
-GROUNDS: Final[dict[str, type[Surface]]] = {}
+GROUNDS: Final[dict[str, type[Ground]]] = {}
 """Every kind of ground by name."""
 
 
-def from_dict(data: Mapping[str, Any]) -> Surface:
+def from_dict(data: Mapping[str, Any]) -> Ground:
     """A ground of its kind and fields; a field that is left out has its default.
 
     Args:
-        data: as :meth:`Surface.to_dict` gives it.
+        data: as :meth:`Ground.to_dict` gives it.
 
     Raises:
         ValueError: no such kind or field, or a value of the wrong type or out of range.
@@ -203,7 +203,7 @@ def from_dict(data: Mapping[str, Any]) -> Surface:
         raise ValueError(f"ground '{kind}': {error}") from None
 
 
-def surface(text: str) -> Surface:
+def parse_ground(text: str) -> Ground:
     """``"kerb:at=0.5,height=0.006"`` -> a ground; numbers of a list are parted by a colon.
 
     Args:
@@ -229,7 +229,7 @@ def _number(text: str) -> object:
 
 
 @cache
-def _types(cls: type[Surface]) -> dict[str, Any]:
+def _types(cls: type[Ground]) -> dict[str, Any]:
     """Types of the fields that hold a number or some; others are a ground's own business."""
     try:
         hints = get_type_hints(cls)

@@ -6,12 +6,21 @@ import math
 import numpy as np
 import pytest
 
-from apnc_plant.ground import GROUNDS, Ground, Kerb, Plane, Surface, Waves, from_dict, surface
+from apnc_plant.ground import (
+    GROUNDS,
+    Ground,
+    Kerb,
+    Obstacles,
+    Plane,
+    Waves,
+    from_dict,
+    parse_ground,
+)
 
 RADIUS = 0.012
 SOME = (
     Plane(slope=0.1),
-    Ground(roughness=0.8, seed=5),
+    Obstacles(roughness=0.8, seed=5),
     Kerb(at=0.1, height=0.008, length=0.05),
     Kerb(at=-0.05, height=0.006),
     Waves(amplitude=0.004, wavelength=0.2),
@@ -24,7 +33,7 @@ def places(count: int, seed: int = 0) -> np.ndarray:
 
 
 @every_ground
-def test_nothing_is_higher_than_the_bound(ground: Surface) -> None:
+def test_nothing_is_higher_than_the_bound(ground: Ground) -> None:
     x, y = places(2000).T
     height = ground.elevation(x, y)
     assert height.shape == (2000,)
@@ -34,7 +43,7 @@ def test_nothing_is_higher_than_the_bound(ground: Surface) -> None:
 
 
 @every_ground
-def test_a_point_touches_below_the_surface_and_not_above(ground: Surface) -> None:
+def test_a_point_touches_below_the_surface_and_not_above(ground: Ground) -> None:
     for x, y in places(300):
         height = float(ground.elevation(np.array(x), np.array(y)))
         assert len(ground.contacts((x, y, height - 1e-6), 0.0)) > 0
@@ -42,7 +51,7 @@ def test_a_point_touches_below_the_surface_and_not_above(ground: Surface) -> Non
 
 
 @every_ground
-def test_a_ball_at_its_rest_height_just_touches(ground: Surface) -> None:
+def test_a_ball_at_its_rest_height_just_touches(ground: Ground) -> None:
     for x, y in places(100):
         rest = ground.rest_height(x, y, RADIUS)
         above = ground.contacts((x, y, rest + 1e-9), RADIUS)
@@ -53,15 +62,15 @@ def test_a_ball_at_its_rest_height_just_touches(ground: Surface) -> None:
 
 
 @every_ground
-def test_lines_lie_in_the_corners_and_on_the_ground(ground: Surface) -> None:
+def test_lines_lie_in_the_corners_and_on_the_ground(ground: Ground) -> None:
     lines = ground.lines(-0.3, 0.3, -0.2, 0.2)
-    if isinstance(ground, Ground):
+    if isinstance(ground, Obstacles):
         lines = [line for line in lines if len(line) == 2]
     points = np.vstack(lines)
     assert all(line.ndim == 2 and line.shape[1] == 3 and len(line) >= 2 for line in lines)
     np.testing.assert_allclose(points[:, :2].min(axis=0), [-0.3, -0.2])
     np.testing.assert_allclose(points[:, :2].max(axis=0), [0.3, 0.2])
-    if not isinstance(ground, Kerb | Ground):
+    if not isinstance(ground, Kerb | Obstacles):
         np.testing.assert_allclose(points[:, 2], ground.elevation(*points[:, :2].T))
 
 
@@ -73,16 +82,16 @@ def test_the_normal_of_a_slope_leans_back() -> None:
 
 
 def test_grounds_are_known_by_kind() -> None:
-    assert {"plane": Plane, "obstacles": Ground, "kerb": Kerb, "waves": Waves} == GROUNDS
-    assert [Plane().flat, Ground().flat, Ground(roughness=0.1).flat] == [True, True, False]
+    assert {"plane": Plane, "obstacles": Obstacles, "kerb": Kerb, "waves": Waves} == GROUNDS
+    assert [Plane().flat, Obstacles().flat, Obstacles(roughness=0.1).flat] == [True, True, False]
     assert not Kerb().flat
     assert not Waves().flat
 
 
 @every_ground
-def test_a_ground_is_the_same_after_writing_and_reading(ground: Surface) -> None:
+def test_a_ground_is_the_same_after_writing_and_reading(ground: Ground) -> None:
     assert from_dict(json.loads(json.dumps(ground.to_dict()))) == ground
-    assert surface(ground.text()) == ground
+    assert parse_ground(ground.text()) == ground
 
 
 @pytest.mark.parametrize(
@@ -93,19 +102,19 @@ def test_a_ground_is_the_same_after_writing_and_reading(ground: Surface) -> None
         (" waves : amplitude = 0.002 , wavelength=1", Waves(amplitude=0.002, wavelength=1.0)),
         (
             "obstacles:roughness=0.5,seed=2,diameters=0.03:0.05",
-            Ground(roughness=0.5, seed=2, diameters=(0.03, 0.05)),
+            Obstacles(roughness=0.5, seed=2, diameters=(0.03, 0.05)),
         ),
-        ("obstacles:seed=2.0", Ground(seed=2)),
+        ("obstacles:seed=2.0", Obstacles(seed=2)),
     ],
 )
-def test_a_ground_in_words(text: str, expected: Surface) -> None:
-    assert surface(text) == expected
+def test_a_ground_in_words(text: str, expected: Ground) -> None:
+    assert parse_ground(text) == expected
 
 
 def test_words_leave_out_what_is_the_default() -> None:
     assert Plane().text() == "plane"
     assert Kerb(height=0.008).text() == "kerb:height=0.008"
-    assert Ground(diameters=(0.03, 0.05)).text() == "obstacles:diameters=0.03:0.05"
+    assert Obstacles(diameters=(0.03, 0.05)).text() == "obstacles:diameters=0.03:0.05"
 
 
 @pytest.mark.parametrize(
@@ -125,7 +134,7 @@ def test_words_leave_out_what_is_the_default() -> None:
 )
 def test_words_that_say_no_ground_are_refused_in_one_line(text: str, message: str) -> None:
     with pytest.raises(ValueError, match=message) as caught:
-        surface(text)
+        parse_ground(text)
     assert "\n" not in str(caught.value)
 
 
@@ -143,7 +152,7 @@ def test_words_that_say_no_ground_are_refused_in_one_line(text: str, message: st
     ],
 )
 def test_values_out_of_range_are_refused(
-    kind: type[Surface], values: dict[str, float], message: str
+    kind: type[Ground], values: dict[str, float], message: str
 ) -> None:
     with pytest.raises(ValueError, match=message):
         kind(**values)
