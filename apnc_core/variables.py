@@ -47,7 +47,7 @@ def _with(rest: dict[str, object], variability: str) -> dict[str, Any]:
 
 
 _PAPER = "paper"
-_SEARCH = "found by search for this robot, docs/decisions.md"
+_SEARCH = "found by search for this robot, docs/decisions/presets.md"
 _METHOD, _MODEL, _MEASURE, _RULE, _SIGN = ENUMERATIONS
 
 TABLE: Final[tuple[Variable, ...]] = (
@@ -115,7 +115,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "a1", "a_1", "slope of the motor neuron of the hip",
         start=0.14, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
-        source=_SEARCH,
+        source="authors' robot data",
     ),
     _parameter(
         "a2", "a_2", "slope of the motor neuron of the knee",
@@ -135,7 +135,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "turn_gain", "", "relative change of the amplitudes at full steering",
         start=0.87, unit="1", min=0.0, max=1.0, nominal=1.0, equation="4",
-        source="chosen: turns by 0.29 rad/s at half steering",
+        source=_SEARCH,
     ),
     _parameter(
         "A_f", "A_f", "retention of the fast learner",
@@ -171,7 +171,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "rbf_rate", "eta", "learning rate of the radial-basis forward model",
         start=0.02, unit="1", min=0.0, max=1.0, nominal=0.01, equation="10",
-        source="chosen, docs/decisions.md",
+        source="chosen, docs/decisions/radial-basis.md",
     ),
     _parameter(
         "phase_measure", "", "how the relative phases are measured; the paper prints peak",
@@ -181,8 +181,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "phase_filter", "", "new part per tick in the low-pass of the vector phase measure",
         start=0.035, paper=0.05, unit="1", min=1e-4, max=1.0, nominal=0.1, equation="12",
-        source="chosen; under the payload phases sway, and at the authors' 0.05 some runs never "
-        "store the gait",
+        source="chosen, docs/decisions/phase-measure.md",
     ),
     _parameter(
         "N", "N", "ticks in the mean of the relative phases", type=Type.integer,
@@ -199,12 +198,13 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "kappa_hold", "", "ticks that d stays at or below sigma before kappa switches on",
-        type=Type.integer, start=100, min=1, max=1_000_000, equation="16", source=_SEARCH,
+        type=Type.integer, start=100, min=1, max=1_000_000, equation="16",
+        source="chosen, docs/decisions/kappa-rule.md",
     ),
     _parameter(
         "xi", "xi", "gain of the neural communication",
         start=0.01, paper=0.01, unit="1", min=0.0, max=1.0, nominal=0.01, equation="17",
-        source=_SEARCH,
+        source=_PAPER,
     ),
     _parameter(
         "feedback_kept", "", "share of the sensory feedback that stays while the couplings are on; "
