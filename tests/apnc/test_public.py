@@ -65,7 +65,7 @@ key: str = experiment.key()
 
 
 def walked(record: apnc.Record) -> float:
-    x: NDArray[np.float64] = record.plant["position"][:, 0]
+    x: NDArray[np.float64] = record.signals["position"][:, 0]
     return float(x[-1] - x[0]) if record.end is apnc.End.complete else 0.0
 
 

@@ -33,7 +33,7 @@ def test_default_walk_forms_a_trot_and_keeps_it(seed: int) -> None:
     assert summary.convergence_time_s is not None and summary.convergence_time_s < 9.0
     assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.03
     # what is stored is the trot rather than pace, bound or legs in phase, if not to the last tenth,
-    c = record.controller
+    c = record.signals
     assert (c["kappa"] > 0.0).any()
     trot = np.array(metrics.GAITS[4]["trot"])
     assert np.abs(metrics.wrap(c["phi_memory"][-1] - trot)).max() < np.pi / 4
@@ -47,7 +47,7 @@ def test_the_hexapod_forms_a_tripod_and_keeps_it(seed: int) -> None:
     assert summary.converged and not summary.fell and summary.gait == "tripod"
     assert summary.convergence_time_s is not None and summary.convergence_time_s < 10.0
     assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.03
-    c = record.controller
+    c = record.signals
     tripod = np.array(metrics.GAITS[6]["tripod"])
     assert metrics.phase_error(c["o1"], c["o2"], tripod)[-300:].max() < metrics.STRICT_TOLERANCE
 
@@ -88,7 +88,7 @@ def test_every_foot_lifts_holds_and_touches_once_on_a_straight_way(seed: int) ->
 def test_half_steering_turns_alike_to_both_sides() -> None:
     turn = ((0.0, 0.0), (8.0, 0.5), (18.0, -0.5))
     record, _ = walked(mi=0.15, duration=28.0, turn=turn)
-    yaw = np.unwrap(record.plant["rpy"][:, 2])
+    yaw = np.unwrap(record.signals["rpy"][:, 2])
     left, right = (yaw[1079] - yaw[660]) / 7.0, (yaw[1260] - yaw[1679]) / 7.0
     assert left > 0.25 and right > 0.25
     assert left == pytest.approx(right, rel=0.2)
@@ -106,7 +106,7 @@ def test_without_the_limit_of_loads_the_payload_changes_the_feedback() -> None:
     """F_max acts where the load exceeds half the weight, which is in every step under payload."""
     fields = {"mi": 0.15, "duration": 6.0, "conditions": "C4"}
     limited, free = (walked(**fields, settings=s)[0] for s in ({}, {"F_max": 100.0}))
-    assert free.controller["gamma"].mean() > 1.2 * limited.controller["gamma"].mean()
+    assert free.signals["gamma"].mean() > 1.2 * limited.signals["gamma"].mean()
 
 
 @pytest.mark.parametrize("mi", [0.08, 0.15])
@@ -114,8 +114,8 @@ def test_walks_with_leg_rf_held_still(mi: float) -> None:
     record, summary = walked(mi=mi, conditions="C3")
     assert not summary.fell
     assert summary.path_speed_m_per_s is not None and summary.path_speed_m_per_s > 0.03
-    assert np.ptp(record.controller["o1"][-240:], axis=0).min() > 1.0  # none has stopped
-    assert np.ptp(record.plant["joint_angle"][-240:, 0, 1:], axis=0).max() < 0.1
+    assert np.ptp(record.signals["o1"][-240:], axis=0).min() > 1.0  # none has stopped
+    assert np.ptp(record.signals["joint_angle"][-240:, 0, 1:], axis=0).max() < 0.1
 
 
 def test_without_load_feedback_no_trot_forms() -> None:
@@ -135,15 +135,15 @@ def test_the_states_go_as_in_the_paper(method: str) -> None:
     else:  # without the couplings a formed gait may sway beyond 0.6 rad for a moment
         assert row["state_speed_s2"] < 0.5 * row["state_speed_s1"]
     # what happened to the robot is what the timeline says
-    force, t = record.plant["foot_force"][..., 2], record.time
+    force, t = record.signals["foot_force"][..., 2], record.time
     assert np.all(force[t < 1.69] == 0.0) and force[(t > 2.0) & (t < 14.0)].mean() > 1.0
     half = record.robot.weight / 2.0
-    stuck = record.plant["grf"][(t > 14.05) & (t < 20.0)]
+    stuck = record.signals["grf"][(t > 14.05) & (t < 20.0)]
     assert np.allclose(stuck[:, [0, 2]], 0.9 * half) and not np.allclose(stuck[:, 1], stuck[0, 1])
-    assert np.all(record.plant["grf"][t > 20.05] == 0.0)
+    assert np.all(record.signals["grf"][t > 20.05] == 0.0)
     stopped = (t > 20.0 - 1e-9) & (t < 24.0 - 1e-9)
-    assert np.all(record.controller["MI"][stopped] == 0.0)
-    assert np.all(record.controller["MI"][~stopped] == 0.15)
+    assert np.all(record.signals["MI"][stopped] == 0.0)
+    assert np.all(record.signals["MI"][~stopped] == 0.15)
 
 
 def test_the_default_step_is_fine_enough_for_the_contact() -> None:

@@ -150,5 +150,5 @@ def test_a_trace_has_a_row_a_tick() -> None:
         trace.take()
         samples.append(plant.sample())
         trot(plant, tick)
-    for name, values in trace.channels().items():
+    for name, values in trace.signals().items():
         np.testing.assert_array_equal(values, [sample[name] for sample in samples])

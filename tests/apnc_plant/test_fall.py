@@ -8,7 +8,7 @@ import pytest
 from plants import Kind, in_both
 from scipy.spatial.transform import Rotation
 
-from apnc_plant.channels import PlantError
+from apnc_plant.signals import PlantError
 from apnc_plant.compiled import PlantInC
 from apnc_plant.forces import RobotForces
 from apnc_plant.ground import Ground, GroundInC, Kerb, Plane

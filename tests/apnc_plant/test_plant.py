@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from plants import AnyPlant, Kind, in_both
 
-from apnc_plant.channels import PLANT_CHANNELS, PlantError
+from apnc_plant.signals import PLANT_SIGNALS, PlantError
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
 
@@ -41,7 +41,7 @@ def coordinates(plant: AnyPlant) -> np.ndarray:
 def test_sample_has_every_channel_in_its_shape(kind: Kind) -> None:
     sample = stand(kind, ROBOT, 0.1).sample()
     assert {name: value.shape for name, value in sample.items()} == {
-        channel.name: channel.shape(4) for channel in PLANT_CHANNELS
+        signal.name: signal.shape(4) for signal in PLANT_SIGNALS
     }
 
 

@@ -20,14 +20,14 @@ def test_channels_hold_every_row_in_order(rows: int) -> None:
         time[0], pair[:] = k, (2 * k, 3 * k)
         trace.take()
     assert len(trace) == rows
-    channels, ticks = trace.channels(), np.arange(rows)
-    np.testing.assert_array_equal(channels["time"], ticks)
-    np.testing.assert_array_equal(channels["pair"][:, 0], np.stack([2.0 * ticks, -3.0 * ticks], 1))
+    signals, ticks = trace.signals(), np.arange(rows)
+    np.testing.assert_array_equal(signals["time"], ticks)
+    np.testing.assert_array_equal(signals["pair"][:, 0], np.stack([2.0 * ticks, -3.0 * ticks], 1))
 
 
 def test_nothing_taken_gives_channels_without_rows() -> None:
-    channels = Trace([np.zeros(1), np.zeros(2)], split).channels()
-    assert {name: values.shape for name, values in channels.items()} == {
+    signals = Trace([np.zeros(1), np.zeros(2)], split).signals()
+    assert {name: values.shape for name, values in signals.items()} == {
         "time": (0,),
         "pair": (0, 1, 2),
     }
@@ -36,10 +36,10 @@ def test_nothing_taken_gives_channels_without_rows() -> None:
 def test_channels_can_be_taken_on_the_way() -> None:
     trace = Trace([np.ones(1), np.zeros(2)], split)
     trace.take()
-    first = trace.channels()["time"]
+    first = trace.signals()["time"]
     trace.take()
     assert len(first) == 1
-    assert len(trace.channels()["time"]) == 2
+    assert len(trace.signals()["time"]) == 2
 
 
 def test_memory_is_twice_the_data() -> None:
@@ -52,7 +52,7 @@ def test_memory_is_twice_the_data() -> None:
     rows = 20 * CHUNK
     for _ in range(rows):
         trace.take()
-    trace.channels()
+    trace.signals()
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < 2.2 * 8 * width * rows

@@ -19,7 +19,7 @@ QUICK = (
 """All but ``install``, which fetches packages."""
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 def test_every_benchmark_measures_something(tmp_path: Path) -> None:
     written = tmp_path / "found.json"
     command = [sys.executable, "-m", "benchmarks", "--quick", "--json", str(written), "--only"]

@@ -6,7 +6,7 @@ import hashlib
 
 import pytest
 
-from apnc_core.row_numbers import ROW_NUMBERS
+from apnc_core.variable_numbers import VARIABLE_NUMBERS
 from apnc_core.schema import VR_STRIDE, VR_TIME, Causality, Variable
 from apnc_core.variables import TABLE, scalars
 from build_fmu import generate
@@ -17,7 +17,7 @@ FINGERPRINT = "208f20102477736e"
 
 
 def fingerprint(n: int) -> str:
-    lines = [f"{name} {number}" for name, number in list(ROW_NUMBERS.items())[:n]]
+    lines = [f"{name} {number}" for name, number in list(VARIABLE_NUMBERS.items())[:n]]
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
 
 
@@ -34,9 +34,9 @@ def test_a_few_of_them_as_importers_know_them() -> None:
 
 
 def test_numbers_are_counted_on_and_each_row_has_one() -> None:
-    assert list(ROW_NUMBERS.values()) == list(range(len(ROW_NUMBERS)))
-    assert {v.name for v in TABLE} <= set(ROW_NUMBERS)
-    assert VR_STRIDE * len(ROW_NUMBERS) <= VR_TIME
+    assert list(VARIABLE_NUMBERS.values()) == list(range(len(VARIABLE_NUMBERS)))
+    assert {v.name for v in TABLE} <= set(VARIABLE_NUMBERS)
+    assert VR_STRIDE * len(VARIABLE_NUMBERS) <= VR_TIME
 
 
 NEW = Variable("new", "", "new", Causality.local, "discrete", unit="1", nominal=1.0)
@@ -44,18 +44,18 @@ NEW = Variable("new", "", "new", Causality.local, "discrete", unit="1", nominal=
 
 def test_a_row_put_in_front_gets_the_next_number(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(generate, "TABLE", (NEW, *TABLE))
-    assert generate.row_numbers() == ROW_NUMBERS | {"new": len(ROW_NUMBERS)}
+    assert generate.variable_numbers() == VARIABLE_NUMBERS | {"new": len(VARIABLE_NUMBERS)}
     text = generate.render()
     assert text["fmu_src/core/apnc_variables.c"].rindex('{"new"') > text[
         "fmu_src/core/apnc_variables.c"
     ].index('{"K_s"')
-    assert f"| `K_s` | {VR_STRIDE * ROW_NUMBERS['K_s']} |" in text["docs/variables.md"]
+    assert f"| `K_s` | {VR_STRIDE * VARIABLE_NUMBERS['K_s']} |" in text["docs/variables.md"]
 
 
 def test_a_row_that_is_no_more_leaves_its_number_empty(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(generate, "TABLE", tuple(v for v in TABLE if v.name != "bias"))
-    assert generate.row_numbers() == ROW_NUMBERS
+    assert generate.variable_numbers() == VARIABLE_NUMBERS
     text = generate.render()["fmu_src/core/apnc_variables.c"]
-    lines = text[text.index("apnc_rows[APNC_ROWS]") :].splitlines()[1:]
-    assert lines[ROW_NUMBERS["bias"]].startswith('    {"", "", "", 0, 0,')
-    assert lines[ROW_NUMBERS["o1_start"]].startswith('    {"o1_start"')
+    lines = text[text.index("apnc_variables[APNC_VARIABLES]") :].splitlines()[1:]
+    assert lines[VARIABLE_NUMBERS["bias"]].startswith('    {"", "", "", 0, 0,')
+    assert lines[VARIABLE_NUMBERS["o1_start"]].startswith('    {"o1_start"')

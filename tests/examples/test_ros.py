@@ -76,6 +76,7 @@ def phases(report: dict[str, str]) -> np.ndarray:
     return np.array([float(angle) for angle in report["phi"].split()])
 
 
+@pytest.mark.thorough
 def test_the_trot_forms_and_comes_back_when_the_node_dies(
     ros: dict[str, str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -21,14 +21,14 @@ from lxml import etree
 from parity import random_loads
 
 from apnc.loop.fmu_controller import FmuController
-from apnc_core.row_numbers import ROW_NUMBERS
+from apnc_core.variable_numbers import VARIABLE_NUMBERS
 from apnc_core.schema import VR_TIME, Causality, Type
 from apnc_core.variables import TABLE, row, scalars
 from build_fmu.build import fmu_bytes, host_fmu
 from build_fmu.options import BuildOptions
 
 TS = 1 / 60
-REFERENCE = {name: 100 * number for name, number in ROW_NUMBERS.items()}
+REFERENCE = {name: 100 * number for name, number in VARIABLE_NUMBERS.items()}
 
 
 @contextmanager

@@ -73,7 +73,9 @@ def check(program: Path, seed: int, calls: int) -> None:
     assert counted["discard"] > 0 or program.name == "fmi3"
 
 
-@pytest.mark.parametrize("seed", range(1, 5))
+@pytest.mark.parametrize(
+    "seed", [1, *(pytest.param(k, marks=pytest.mark.thorough) for k in range(2, 5))]
+)
 def test_a_million_random_calls(fuzz: Path, seed: int) -> None:
     check(fuzz, seed, SHORT)
 

@@ -85,6 +85,7 @@ def outputs_of_runs() -> list[np.ndarray]:
     return [outputs(run) for run in RUNS]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     "name",
     [v.name for v in rows(Causality.parameter) if v.name != "Ts"],  # acts on time alone
@@ -98,7 +99,7 @@ def test_a_parameter_that_one_side_ignores_would_be_noticed(
     )
 
 
-@pytest.mark.parametrize("n_legs", [4, 6])
+@pytest.mark.parametrize("n_legs", [4, pytest.param(6, marks=pytest.mark.thorough)])
 def test_fmu_equals_reference_over_minutes(n_legs: int, paths: dict[int, Path]) -> None:
     result = compare(paths[n_legs], COUPLED, n_legs, ticks=10_000)
     assert equal(result), result.difference
@@ -139,6 +140,7 @@ MUTATIONS: dict[str, tuple[str, str, str, dict[str, object]]] = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("block", MUTATIONS)
 def test_breaking_a_block_shows(block: str, tmp_path: Path) -> None:
     name, good, bad, changes = MUTATIONS[block]

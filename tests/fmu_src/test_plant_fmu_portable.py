@@ -75,6 +75,7 @@ def scratch(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("native")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("platform", ["aarch64-linux", "win64"])
 @pytest.mark.parametrize("condition", [Condition.C2, Condition.C4, Condition.S1])
 def test_other_platforms_give_the_bits_of_linux64(
@@ -94,6 +95,7 @@ BUILDS = {
 }
 
 
+@pytest.mark.thorough
 def test_no_name_is_shared_between_builds_and_every_name_is_prefixed(tmp_path: Path) -> None:
     compiler, seen, objects = tool("gcc", "gcc"), set(), []
     for name, build in BUILDS.items():
@@ -113,6 +115,7 @@ def test_no_name_is_shared_between_builds_and_every_name_is_prefixed(tmp_path: P
     run(compiler, "-shared", "-Wl,-z,defs", *objects, "-o", tmp_path / "all.so", "-lm")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("compiler", ["gcc", "clang"])
 def test_a_bare_compiler_rebuilds_the_library(compiler: str, tmp_path: Path) -> None:
     sources = unzipped(BUILDS["lilibot"], tmp_path) / "sources"

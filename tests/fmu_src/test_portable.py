@@ -28,6 +28,7 @@ from build_fmu.build import cached_fmu, fmu_bytes, host_fmu
 from build_fmu.options import MODEL, PLATFORMS, BuildOptions, host_platform
 
 LINUX = ["linux64", "aarch64-linux"]
+OTHERS = [pytest.param(p, marks=pytest.mark.thorough) for p in ("aarch64-linux", "win64")]
 MINUTE = 3600
 ALWAYS_COUPLED = {"kappa_rule": KappaRule.printed.value}
 
@@ -155,6 +156,7 @@ def test_archive_is_small_and_holds_nothing_else(everywhere: Path) -> None:
     }  # fmt: skip
 
 
+@pytest.mark.thorough
 def test_same_bytes_from_another_folder_with_other_caches(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -172,6 +174,7 @@ def moved(outputs: np.ndarray) -> set[str]:
     return {s.variable.name for s, c in zip(OUTPUTS, outputs.T, strict=True) if np.ptp(c) > 0}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("platform", ["aarch64-linux", "win64"])
 @pytest.mark.parametrize("method", Method)
 def test_other_platforms_give_the_bits_of_linux64(
@@ -183,6 +186,7 @@ def test_other_platforms_give_the_bits_of_linux64(
     assert {"theta_hip", "theta_knee", "phi", "d"} <= moved(here.view(float))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("platform", ["aarch64-linux", "win64"])
 @pytest.mark.parametrize("MI", [0.08, 0.15, 0.24])
 def test_other_platforms_give_the_bits_of_linux64_with_couplings_on(
@@ -195,7 +199,7 @@ def test_other_platforms_give_the_bits_of_linux64_with_couplings_on(
     assert {"theta_hip", "g1", "g2"} <= moved(here.view(float))
 
 
-@pytest.mark.parametrize("platform", ["linux64", "aarch64-linux", "win64"])
+@pytest.mark.parametrize("platform", ["linux64", *OTHERS])
 def test_fmi_3_gives_the_bits_of_fmi_2(
     unpacked: Path, everywhere3: Path, scratch: Path, platform: str
 ) -> None:

@@ -70,6 +70,7 @@ def expected(legs: int) -> np.ndarray:
     return np.array(rows)
 
 
+@pytest.mark.thorough
 def test_four_builds_in_one_program_give_what_each_gives_alone(
     objects: dict[tuple[int, int], list[Path]], tmp_path: Path
 ) -> None:

@@ -164,6 +164,7 @@ MUTATIONS: dict[str, tuple[str, str, dict[str, object]]] = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("file", MUTATIONS)
 def test_breaking_a_block_shows(file: str, tmp_path: Path) -> None:
     good, bad, changes = MUTATIONS[file]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from odd_robot import odd_robot
 
-from apnc_plant.channels import PlantError
+from apnc_plant.signals import PlantError
 from apnc_plant.conditions import Conditions, named_conditions
 from apnc_plant.ground import Obstacles, Plane
 from apnc_plant.options import PlantOptions

@@ -119,6 +119,7 @@ def test_contact_is_measured_with_the_step_of_the_walk(monkeypatch: pytest.Monke
     assert set(row) >= {"peak_N", "tick_force_error", "chatter", "distance_error_mm"}
 
 
+@pytest.mark.thorough
 def test_the_default_step_is_fine_enough_for_forces() -> None:
     contact_measure = importlib.import_module("research.contact.measure")
     steps = round(contact_measure.TICK / PlantOptions().step)

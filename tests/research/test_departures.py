@@ -41,13 +41,13 @@ def test_only_the_run_through_the_states_is_judged_by_them() -> None:
 @pytest.mark.parametrize("moves", [True, False])
 def test_a_stop_is_one_if_no_oscillator_moves_before_the_restart(moves: bool) -> None:
     record = synthetic_record(TIMELINE.end)
-    o1 = record.controller["o1"].copy()
+    o1 = record.signals["o1"].copy()
     time = record.time
     o1[(time >= TIMELINE.stopped) & (time < TIMELINE.restarted), 0 if moves else slice(None)] = 0.1
     run = replace(
         record,
         experiment=TIMELINE.experiment("apnc", 0),
-        controller={**record.controller, "o1": o1},
+        controller={**record.signals, "o1": o1},
     )
     assert departures.measure(run)[departures.STOP_MOVES] is moves
 

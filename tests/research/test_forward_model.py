@@ -38,7 +38,7 @@ def learned(stored: float, duration: float = 25.0) -> Record:
     on = base.time >= stored
     K = np.where(on[:, None], 0.01, [0.05, 0.0, 0.05, 0.0])
     experiment = replace(base.experiment, duration=duration)
-    controller = base.controller | {"K_f": K, "K_s": K, "kappa": 1.0 * on}
+    controller = base.signals | {"K_f": K, "K_s": K, "kappa": 1.0 * on}
     return replace(base, experiment=experiment, controller=controller)
 
 

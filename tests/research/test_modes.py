@@ -120,7 +120,7 @@ def test_the_free_cycle_repeats_itself() -> None:
 def test_the_reduced_plant_forms_the_trot() -> None:
     robot = load_robot("lilibot")
     run = Experiment(robot=robot, mi=0.15, duration=12.0, method="apc")
-    c = simulate(run, plant=SpringTrunk(robot)).controller
+    c = simulate(run, plant=SpringTrunk(robot)).signals
     error = metrics.phase_error(c["o1"], c["o2"], metrics.GAITS[4]["trot"])
     assert error[0] > 2.5  # in phase, but for the first loads
     assert error[-120:].max() < metrics.STRICT_TOLERANCE

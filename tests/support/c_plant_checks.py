@@ -122,7 +122,7 @@ def _on_ground(lib: Any, ground: Numbers, seed: int, held: bool, norm: int) -> i
 
 
 def shown(plant: CPlant, acting: Expected, q: np.ndarray, v: np.ndarray, norm: int) -> None:
-    """Every channel of a sample is what its name says."""
+    """Every signal of a sample is what its name says."""
     sample = plant.sample()
     close(sample["position"], q[:3])
     close(sample["rpy"], q[[5, 4, 3]])
@@ -151,7 +151,7 @@ def foot_mass_of(body: RigidBody, plant: CPlant, ground: Numbers) -> float:
 
 
 def forces(lib: Any) -> None:
-    """On every ground, held and free: contact, friction, suspension, work, every channel."""
+    """On every ground, held and free: contact, friction, suspension, work, every signal."""
     for ground in grounds().values():
         touching = 0
         for seed in range(10, 16):

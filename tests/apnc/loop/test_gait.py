@@ -23,8 +23,8 @@ SETTINGS = GAIT.settings(GAIT.legs)
 def walked(experiment: Experiment) -> tuple[np.ndarray, float]:
     """Relative phases over the last second [rad] and distance [m]."""
     record = simulate(experiment)
-    start, end = record.plant["position"][[0, -1], :2]
-    return record.controller["phi"][-60:], float(np.linalg.norm(end - start))
+    start, end = record.signals["position"][[0, -1], :2]
+    return record.signals["phi"][-60:], float(np.linalg.norm(end - start))
 
 
 def test_a_stored_gait_comes_back_without_feedback_and_walks() -> None:

@@ -26,8 +26,8 @@ def test_the_bits_of_a_run_are_the_same_at_each(single: bool) -> None:
     best = record_at(None, single=single)
     for level in range(library()[1].plant_best_level() + 1):
         record = record_at(level, single=single)
-        for name, values in best.plant.items():
-            np.testing.assert_array_equal(record.plant[name], values)
+        for name, values in best.signals.items():
+            np.testing.assert_array_equal(record.signals[name], values)
 
 
 def test_the_level_decides_how_many_walk_side_by_side() -> None:

@@ -44,8 +44,8 @@ def several() -> list[Experiment]:
 
 
 def same(a: Record, b: Record) -> bool:
-    pairs = [(a.plant[name], b.plant[name]) for name in a.plant]
-    pairs += [(a.controller[name], b.controller[name]) for name in a.controller]
+    pairs = [(a.signals[name], b.signals[name]) for name in a.signals]
+    pairs += [(a.signals[name], b.signals[name]) for name in a.signals]
     return a.end == b.end and all(np.array_equal(x, y) for x, y in pairs)
 
 
@@ -175,4 +175,4 @@ def test_a_step_after_the_end_of_a_run_changes_nothing(
     stepped = replace(plain, **{name: ((0.0, values[0]), (later, values[1]))})
     a, b = simulate(plain), simulate(stepped)
     assert len(b) == 60
-    assert np.array_equal(a.plant["position"], b.plant["position"])
+    assert np.array_equal(a.signals["position"], b.signals["position"])

@@ -77,8 +77,8 @@ def test_it_walks_with_them_in_every_loop_and_they_are_read_back(own: str, tmp_p
     for record in records:
         assert {name: record.parameters[name] for name in OWN} == HELD
         assert len(record) == 25
-        assert np.ptp(record.controller["theta_hip"]) == 0.0  # slope a1
-        assert (record.controller["phi_memory"] == GAIT).all()
+        assert np.ptp(record.signals["theta_hip"]) == 0.0  # slope a1
+        assert (record.signals["phi_memory"] == GAIT).all()
         write_report(record, tmp_path)
         shown = json.loads((tmp_path / "summary.json").read_text())["parameters"]
         assert {name: shown[name] for name in OWN} == OWN | {"phi_stored": list(GAIT)}

@@ -59,9 +59,9 @@ def test_loads_go_in_and_commands_out_at_every_tick_of_the_update_rate() -> None
     assert seen == pytest.approx(0.02 * np.arange(1, 26))
     assert record.time == pytest.approx(0.02 * np.arange(25))
     loads = 10.0 * np.arange(4) + np.arange(25)[:, np.newaxis]
-    assert np.array_equal(record.controller["grf"], loads)
+    assert np.array_equal(record.signals["grf"], loads)
     for place, name in enumerate(("theta_hip", "theta_knee")):
-        assert np.array_equal(record.controller[name], [c[place] for c in plant.commands])
+        assert np.array_equal(record.signals[name], [c[place] for c in plant.commands])
     assert (record.end, record.message, record.ended_at) == (End.complete, "", 0.5)
     assert (record.legs, record.mass, record.complete) == (LEGS, 2.5, True)
 
@@ -78,9 +78,9 @@ def test_commands_and_conditions_change_at_their_times() -> None:
     )
     record = simulate(experiment, plant=plant)
     ticks = np.arange(50)
-    assert np.array_equal(record.controller["MI"], np.where(ticks < 5, 0.1, 0.3))
-    assert np.array_equal(record.controller["turn"], np.where(ticks < 10, 0.0, -0.5))
-    assert np.array_equal(record.controller["reset"], ticks < 15)
+    assert np.array_equal(record.signals["MI"], np.where(ticks < 5, 0.1, 0.3))
+    assert np.array_equal(record.signals["turn"], np.where(ticks < 10, 0.0, -0.5))
+    assert np.array_equal(record.signals["reset"], ticks < 15)
     assert plant.conditions == [(20, CONDITIONS["C3"]), (30, CONDITIONS["C1"])]
 
 
@@ -104,9 +104,9 @@ def test_stop_ends_the_run_before_the_next_tick() -> None:
 def test_a_run_of_no_tick_has_channels_of_no_rows() -> None:
     record = simulate(Experiment(duration=1), plant=Noting(), stop=lambda: True)
     assert (record.end, len(record), record.ended_at) == (End.interrupted, 0, 0.0)
-    assert record.controller["o1"].shape == (0, 4)
-    assert record.controller["phi"].shape == (0, 3)
-    assert record.plant["grf"].shape == (0, 1)
+    assert record.signals["o1"].shape == (0, 4)
+    assert record.signals["phi"].shape == (0, 3)
+    assert record.signals["grf"].shape == (0, 1)
 
 
 def test_a_run_of_years_begins_at_once() -> None:
@@ -123,7 +123,7 @@ def test_an_fmu_for_other_legs_is_refused(fmu6: Path) -> None:
 def test_the_parameters_reach_the_controller() -> None:
     def hips(**settings: Any) -> Any:
         experiment = Experiment(duration=0.5, settings=settings)
-        return simulate(experiment, plant=Noting()).controller["theta_hip"]
+        return simulate(experiment, plant=Noting()).signals["theta_hip"]
 
     assert not np.array_equal(hips(), hips(w12_0=0.3))
 
@@ -133,6 +133,6 @@ def test_seed_and_ground_reach_the_plant() -> None:
         simulate(Experiment(duration=1.0, seed=seed, ground=ground))
         for seed, ground in ((0, Plane()), (1, Plane()), (0, Obstacles(roughness=1.0)))
     ]
-    places = [walk.plant["foot_position"] for walk in walks]
+    places = [walk.signals["foot_position"] for walk in walks]
     assert not np.array_equal(places[0], places[1])
     assert not np.array_equal(places[0], places[2])

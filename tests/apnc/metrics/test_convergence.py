@@ -83,7 +83,7 @@ def test_in_phase_does_not_meet_the_authors_criterion() -> None:
 
 def test_convergence_times_of_a_ramp() -> None:
     r = synthetic_record(20.0, formation=(2.0, 12.0))
-    o1, o2 = r.controller["o1"], r.controller["o2"]
+    o1, o2 = r.signals["o1"], r.signals["o2"]
     # phi13 enters the band at pi - 0.6; the distance sqrt(2) (pi - x) is 2.8 at x = pi - 1.98.
     strict, authors = 2 + 10 * (PI - 0.6) / PI, 2 + 10 * (PI - 2.8 / np.sqrt(2)) / PI
     for touch in (0, 60):
@@ -95,7 +95,7 @@ def test_convergence_times_of_a_ramp() -> None:
 
 def test_the_strict_time_is_that_of_the_first_sample_inside() -> None:
     r = synthetic_record(20.0, formation=(2.0, 12.0))
-    o1, o2 = r.controller["o1"], r.controller["o2"]
+    o1, o2 = r.signals["o1"], r.signals["o2"]
     found = metrics.convergence_time(r.time, o1, o2, 0, TROT)
     assert found is not None
     first = round(found * RATE)
@@ -105,14 +105,14 @@ def test_the_strict_time_is_that_of_the_first_sample_inside() -> None:
 
 def test_a_gait_that_was_there_before_the_touch_counts_from_it() -> None:
     r = synthetic_record(20.0, formation=(2.0, 4.0))
-    o1, o2 = r.controller["o1"], r.controller["o2"]
+    o1, o2 = r.signals["o1"], r.signals["o2"]
     assert metrics.convergence_time(r.time, o1, o2, 600, TROT) == 0.0
     assert metrics.convergence_time_authors(r.time, o1, o2, 600, TROT) == 0.0
 
 
 def test_time_counts_in_seconds_of_the_time_axis() -> None:
     r = synthetic_record(20.0, formation=(2.0, 12.0))
-    o1, o2 = r.controller["o1"], r.controller["o2"]
+    o1, o2 = r.signals["o1"], r.signals["o2"]
     for criterion in (metrics.convergence_time, metrics.convergence_time_authors):
         once, twice = (criterion(k * r.time + 7.0, o1, o2, 60, TROT) for k in (1, 2))
         assert once and twice == pytest.approx(2 * once)
@@ -138,7 +138,7 @@ def test_an_excursion_moves_the_strict_time_to_after_it() -> None:
 @pytest.mark.parametrize(("end", "formed"), [(8.8, True), (9.3, False)])
 def test_the_gait_must_last_for_a_second(end: float, formed: bool) -> None:
     r = synthetic_record(10.0, formation=(end - 0.3, end))
-    o1, o2 = r.controller["o1"], r.controller["o2"]
+    o1, o2 = r.signals["o1"], r.signals["o2"]
     assert (metrics.convergence_time(r.time, o1, o2, 0, TROT) is not None) is formed
 
 

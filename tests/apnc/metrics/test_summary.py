@@ -31,18 +31,18 @@ PI = np.pi
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-def with_channels(record: Record, **channels: np.ndarray) -> Record:
-    """The record with other channels, of the plant or the controller."""
-    plant = {name: channels.get(name, values) for name, values in record.plant.items()}
-    controller = {name: channels.get(name, values) for name, values in record.controller.items()}
+def with_signals(record: Record, **signals: np.ndarray) -> Record:
+    """The record with other signals, of the plant or the controller."""
+    plant = {name: signals.get(name, values) for name, values in record.signals.items()}
+    controller = {name: signals.get(name, values) for name, values in record.signals.items()}
     return replace(record, plant=plant, controller=controller)
 
 
 def moving_on(record: Record, forward: np.ndarray, left: np.ndarray, yaw: np.ndarray) -> Record:
     """The record with another path of the trunk."""
-    position, rpy = record.plant["position"].copy(), record.plant["rpy"].copy()
+    position, rpy = record.signals["position"].copy(), record.signals["rpy"].copy()
     position[:, 0], position[:, 1], rpy[:, 2] = forward, left, yaw
-    return with_channels(record, position=position, rpy=rpy)
+    return with_signals(record, position=position, rpy=rpy)
 
 
 def ended(record: Record, end: End, message: str = "") -> Record:
@@ -132,7 +132,7 @@ def test_cost_of_transport() -> None:
     walk = synthetic_record(20.0, speed=0.1)
     power = np.arange(12).reshape(4, 3)  # 66 W in all
     work = 7.0 + walk.time[:, None, None] * power
-    s = summarise(with_channels(walk, joint_work=work))
+    s = summarise(with_signals(walk, joint_work=work))
     assert s.cost_of_transport == pytest.approx(66.0 / (MASS * 9.81 * 0.1))
 
 
@@ -143,7 +143,7 @@ def test_cost_of_transport_is_over_the_path_not_the_way_ahead() -> None:
     angle = 2.0 * PI * walk.time / walk.time[-1]  # once round a circle of 0.4 m, back to its start
     forward, left = 0.4 * np.sin(angle), 0.4 * (1.0 - np.cos(angle))
     round_trip = moving_on(walk, forward, left, metrics.wrap(angle))
-    s = summarise(with_channels(round_trip, joint_work=work))
+    s = summarise(with_signals(round_trip, joint_work=work))
     assert s.distance_m == pytest.approx(0.0, abs=1e-9)
     spent, path = power.sum() * walk.time[-1], 2.0 * PI * 0.4
     assert s.cost_of_transport == pytest.approx(spent / (MASS * 9.81 * path), rel=0.03)
@@ -190,7 +190,7 @@ def test_each_criterion_has_its_own_figure() -> None:
 def test_times_count_from_the_touch_moment() -> None:
     walk = synthetic_record(20.0, formation=(2.0, 12.0), air_time=4.0)
     s, at_once = summarise(walk), summarise(synthetic_record(20.0, formation=(2.0, 12.0)))
-    late = walk.time[metrics.touch_moment(walk.plant["foot_force"][..., 2], MASS * 9.81) or 0]
+    late = walk.time[metrics.touch_moment(walk.signals["foot_force"][..., 2], MASS * 9.81) or 0]
     assert late == pytest.approx(4.0, abs=0.4)
     for name in ("convergence_time_s", "convergence_time_authors_s"):
         assert getattr(s, name) == pytest.approx(getattr(at_once, name) - late, abs=1.5 / RATE)
@@ -201,14 +201,14 @@ def test_what_is_before_the_touch_moment_counts_for_nothing_else() -> None:
     flying = walk.time < 4.0
     theta = 2 * PI * 5.0 * walk.time[:, None] + np.zeros(4)
     o1, o2 = (
-        np.where(flying[:, None], a, walk.controller[n])
+        np.where(flying[:, None], a, walk.signals[n])
         for n, a in zip(("o1", "o2"), outputs(theta), strict=True)
     )
-    rpy, feet = walk.plant["rpy"].copy(), walk.plant["foot_position"].copy()
+    rpy, feet = walk.signals["rpy"].copy(), walk.signals["foot_position"].copy()
     rpy[flying, :2] += 1.0
     feet[flying] *= 50.0
-    place = walk.plant["position"] * np.where(flying, 50.0, 1.0)[:, None]
-    falling = with_channels(walk, o1=o1, o2=o2, rpy=rpy, foot_position=feet, position=place)
+    place = walk.signals["position"] * np.where(flying, 50.0, 1.0)[:, None]
+    falling = with_signals(walk, o1=o1, o2=o2, rpy=rpy, foot_position=feet, position=place)
     s, without = summarise(falling), summarise(clean)
     assert s.stride_frequency_hz == pytest.approx(without.stride_frequency_hz)
     assert s.stride_length_mm == pytest.approx(without.stride_length_mm)
@@ -227,13 +227,13 @@ def test_a_robot_that_never_touches_the_ground() -> None:
 
 def test_coordination_is_of_the_worst_leg() -> None:
     walk = synthetic_record(31.0, frequency=1.0, duty=0.5)  # 30 whole strides
-    force = walk.plant["foot_force"].copy()
+    force = walk.signals["foot_force"].copy()
     theta = 2 * PI * walk.time
     # Every second cycle of RF, from mid-swing to mid-swing, has no stance.
     cycle = np.floor((theta + PI / 2) / (2 * PI))
     force[cycle % 2 == 1, 0, 2] = 0.0
     force[:, 1:, 2] = force[:, 2:3, 2]
-    s = summarise(with_channels(walk, foot_force=force))
+    s = summarise(with_signals(walk, foot_force=force))
     share = 2 * (s.duty_factor["RF"] or 0.0)
     assert share == pytest.approx(0.5 * (1 - 2 * np.arcsin(0.1) / PI), abs=0.03)
     assert s.coordination == pytest.approx(2 / share, rel=0.03)
@@ -244,11 +244,11 @@ def test_coordination_is_of_the_worst_leg() -> None:
 def test_figures_per_leg_belong_to_their_leg() -> None:
     walk = synthetic_record(20.0)
     n = np.arange(4)
-    feet, force = walk.plant["foot_position"].copy(), walk.plant["foot_force"].copy()
+    feet, force = walk.signals["foot_position"].copy(), walk.signals["foot_force"].copy()
     feet[..., 2] *= n
     feet[..., 1] += 0.01 * n * walk.time[:, None]
     force[::2, 3, 2] = 0.0
-    varied = with_channels(walk, foot_position=feet, foot_force=force)
+    varied = with_signals(walk, foot_position=feet, foot_force=force)
     s = summarise(varied)
     assert list(s.foot_lift_mm) == list(QUADRUPED)
     assert list(s.foot_lift_mm.values())[:3] == pytest.approx([0.0, 15.0, 30.0], abs=0.2)
@@ -258,7 +258,7 @@ def test_figures_per_leg_belong_to_their_leg() -> None:
     stride = 80.0 / 1.4
     assert list(s.slip_share.values()) == pytest.approx([(way or 0.0) / stride for way in slip])
     begin = metrics.touch_moment(force[..., 2], MASS * 9.81) or 0
-    starts = metrics.cycle_starts(*(varied.controller[name][begin:] for name in ("o1", "o2")))
+    starts = metrics.cycle_starts(*(varied.signals[name][begin:] for name in ("o1", "o2")))
     measured = feet[begin:], metrics.stance(force[..., 2])[begin:], starts
     assert slip == pytest.approx([1000 * (value or 0.0) for value in metrics.slips(*measured)])
     assert list(s.foot_lift_mm.values()) == pytest.approx(
@@ -296,10 +296,10 @@ def test_other_numbers_of_legs(legs: tuple[str, ...], target: tuple[float, ...],
 def test_legs_without_a_known_gait() -> None:
     walk = synthetic_record(10.0)
     plant = {
-        k: v[:, :3] if k.startswith(("foot", "joint", "grf")) else v for k, v in walk.plant.items()
+        k: v[:, :3] if k.startswith(("foot", "joint", "grf")) else v for k, v in walk.signals.items()
     }
     controller = {
-        k: v[:, :3] if v.ndim > 1 and v.shape[1] == 4 else v for k, v in walk.controller.items()
+        k: v[:, :3] if v.ndim > 1 and v.shape[1] == 4 else v for k, v in walk.signals.items()
     }
     s = summarise(replace(walk, legs=("RF", "RH", "L"), plant=plant, controller=controller))
     assert (s.converged, s.phi_target, s.gait) == (None, None, None)
@@ -319,7 +319,7 @@ def test_a_fall_is_no_convergence_but_a_walk_until_then() -> None:
 
 def test_nothing_is_measured_of_a_diverged_run() -> None:
     walk = synthetic_record(12.5)
-    thrown = with_channels(walk, position=1e45 * walk.plant["position"])
+    thrown = with_signals(walk, position=1e45 * walk.signals["position"])
     s = summarise(ended(thrown, End.diverged, "velocity beyond 100 m/s"))
     assert (s.end, s.fell, s.complete) == ("diverged", False, False)
     assert (s.message, s.duration_s, s.converged) == ("velocity beyond 100 m/s", 12.5, False)
@@ -329,18 +329,18 @@ def test_nothing_is_measured_of_a_diverged_run() -> None:
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
-@pytest.mark.parametrize("channel", ["position", "foot_force", "joint_work", "o1", "o2"])
-def test_nothing_is_measured_of_values_that_are_not_finite(channel: str, value: float) -> None:
+@pytest.mark.parametrize("signal", ["position", "foot_force", "joint_work", "o1", "o2"])
+def test_nothing_is_measured_of_values_that_are_not_finite(signal: str, value: float) -> None:
     walk = synthetic_record(5.0)
-    broken = {**walk.plant, **walk.controller}[channel].copy()
+    broken = {**walk.signals, **walk.signals}[signal].copy()
     broken.flat[100] = value
-    s = summarise(with_channels(walk, **{channel: broken}))
+    s = summarise(with_signals(walk, **{signal: broken}))
     assert {name for name, entry in figures(s).items() if not is_empty(entry)} == set()
 
 
 def test_no_figure_is_infinite() -> None:
     walk = synthetic_record(5.0)
-    thrown = with_channels(walk, position=1e200 * walk.plant["position"])
+    thrown = with_signals(walk, position=1e200 * walk.signals["position"])
     with np.errstate(all="ignore"):
         s = summarise(thrown)
     assert s.path_speed_m_per_s is None
@@ -402,6 +402,6 @@ def test_channels_may_lie_in_memory_in_any_order(
     laid_out: Callable[[np.ndarray], np.ndarray],
 ) -> None:
     walk = synthetic_record(10.0, formation=(1.0, 3.0))
-    channels = {name: laid_out(v) for name, v in {**walk.plant, **walk.controller}.items()}
-    assert not channels["o1"].flags.c_contiguous
-    assert summarise(with_channels(walk, **channels)) == summarise(walk)
+    signals = {name: laid_out(v) for name, v in {**walk.signals, **walk.signals}.items()}
+    assert not signals["o1"].flags.c_contiguous
+    assert summarise(with_signals(walk, **signals)) == summarise(walk)

@@ -1,4 +1,4 @@
-"""What every panel plots, on a made-up walk whose channels all differ."""
+"""What every panel plots, on a made-up walk whose signals all differ."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ PHASES = (0.5, 1.5, 2.5)
 
 
 def distinct(record: Record) -> Record:
-    """The record with other numbers in every channel and column."""
+    """The record with other numbers in every signal and column."""
     random = np.random.default_rng(1)
     plant = {
         name: values + random.uniform(1.0, 2.0, values.shape)
-        for name, values in record.plant.items()
+        for name, values in record.signals.items()
         if name not in ("position", "rpy", "foot_position")
     }
     controller = {
         name: values + random.uniform(0.0, 0.1, values.shape)
-        for name, values in record.controller.items()
+        for name, values in record.signals.items()
         if name not in ("o1", "o2", "phi")
     }
     return replace(
         record,
-        plant={**record.plant, **plant},
-        controller={**record.controller, **controller},
+        plant={**record.signals, **plant},
+        controller={**record.signals, **controller},
     )
 
 
@@ -62,9 +62,9 @@ def lines(figure: Figure) -> list[dict[str, Any]]:
     return [t for t in figure.data if t.get("x") != [None]]
 
 
-def columns(channel: str, at: Any = ...) -> Array:
-    source = RECORD.plant if channel in RECORD.plant else RECORD.controller
-    return source[channel][at]
+def columns(signal: str, at: Any = ...) -> Array:
+    source = RECORD.signals if signal in RECORD.signals else RECORD.signals
+    return source[signal][at]
 
 
 ROWS: dict[str, tuple[str, dict[str, Array]]] = {
@@ -137,7 +137,7 @@ def test_phases_are_those_of_the_leg_and_relation_they_name() -> None:
 def test_phases_are_not_struck_through_where_they_leave_the_panel() -> None:
     record = synthetic_record(10.0, (0.0, 0.0, 0.0))
     turning = np.linspace(0.0, 4 * np.pi, len(record))
-    record.controller["phi"][:, 0] = turning
+    record.signals["phi"][:, 0] = turning
     shown = y(next(t for t in drawn("phi", record).data if t["name"] == "φ12 … in the FMU"))
     assert np.isnan(shown).sum() == 2
     assert np.nanmax(np.abs(np.diff(shown))) < 0.1
@@ -155,7 +155,7 @@ def test_bands_lie_around_the_target_with_the_tolerance_of_the_criterion() -> No
 
 def test_bars_stand_where_the_feet_stand() -> None:
     record = synthetic_record(10.0)
-    force = record.plant["foot_force"]
+    force = record.signals["foot_force"]
     force[:] = 0.0
     contacts = {0: [(60, 120)], 1: [(30, 60), (300, 330)], 2: [(0, 12)], 3: [(540, 600)]}
     for leg, spans in contacts.items():
@@ -176,7 +176,7 @@ def test_bars_stand_where_the_feet_stand() -> None:
 def test_a_second_touch_down_in_a_cycle_is_marked() -> None:
     record = synthetic_record(10.0, (0.0, 0.0, 0.0), frequency=1.0)
     # One cycle a second, from mid-swing at 0.75 s on.
-    force = record.plant["foot_force"]
+    force = record.signals["foot_force"]
     force[:] = 0.0
     for second in range(9):
         for leg in range(4):
@@ -207,7 +207,7 @@ def test_speed_is_along_the_heading_and_its_mean_along_the_path() -> None:
 
 def test_path_is_drawn_from_start_to_end_in_equal_scales() -> None:
     figure = drawn("path")
-    x, lateral = RECORD.plant["position"][:, :2].T
+    x, lateral = RECORD.signals["position"][:, :2].T
     track, start, end = figure.data
     assert numbers(track["x"]) == pytest.approx(x, abs=1e-6)
     assert y(track) == pytest.approx(lateral, abs=1e-6)
@@ -222,9 +222,9 @@ def test_path_is_drawn_from_start_to_end_in_equal_scales() -> None:
 def test_trunk_shows_height_over_the_ground_and_its_angles() -> None:
     slope = 0.2
     found = {t["name"]: y(t) for t in drawn("trunk", on(Plane(slope=slope))).data}
-    x, _, z = RECORD.plant["position"].T
+    x, _, z = RECORD.signals["position"].T
     assert found["height [m]"] == pytest.approx(z * np.cos(slope) - x * np.sin(slope), abs=1e-6)
-    roll, pitch, yaw = np.degrees(RECORD.plant["rpy"]).T
+    roll, pitch, yaw = np.degrees(RECORD.signals["rpy"]).T
     assert found["roll [°]"] == pytest.approx(roll, abs=1e-5)
     assert found["pitch [°]"] == pytest.approx(pitch, abs=1e-5)
     assert found["yaw [°]"] == pytest.approx(yaw, abs=1e-4)
@@ -233,7 +233,7 @@ def test_trunk_shows_height_over_the_ground_and_its_angles() -> None:
 def test_yaw_goes_on_beyond_half_a_turn() -> None:
     record = synthetic_record(10.0)
     turned = np.linspace(0.0, 5.0, len(record))
-    record.plant["rpy"][:, 2] = (turned + np.pi) % (2 * np.pi) - np.pi
+    record.signals["rpy"][:, 2] = (turned + np.pi) % (2 * np.pi) - np.pi
     found = {t["name"]: y(t) for t in drawn("trunk", record).data}
     assert found["yaw [°]"] == pytest.approx(np.degrees(turned), abs=1e-4)
 
@@ -248,14 +248,14 @@ def test_yaw_goes_on_beyond_half_a_turn() -> None:
 def test_clearance_is_the_height_of_the_sole_over_the_ground(ground: Ground, below: Any) -> None:
     figure = drawn("clearance", on(ground))
     for i, (leg, trace) in enumerate(zip(QUADRUPED, figure.data, strict=True)):
-        x, _, z = RECORD.plant["foot_position"][:, i].T
+        x, _, z = RECORD.signals["foot_position"][:, i].T
         assert y(trace) == pytest.approx(1000 * (z - FOOT_RADIUS - below(x)), abs=1e-3)
         assert axis_of(figure, trace) == f"<b>{leg}</b> [mm]"
 
 
 def test_clearance_is_measured_along_the_normal_of_a_slope() -> None:
     record = synthetic_record(1.0)
-    record.plant["foot_position"][:] = [1.0, 0.0, 0.5]
+    record.signals["foot_position"][:] = [1.0, 0.0, 0.5]
     gap = np.array([1.0, 0.5]) @ [-np.sin(0.1), np.cos(0.1)] - FOOT_RADIUS
     for trace in drawn("clearance", on(Obstacles(slope=0.1), record)).data:
         assert y(trace) == pytest.approx(1000 * gap, abs=1e-3)

@@ -52,8 +52,8 @@ def test_a_run_is_three_files_that_say_what_was_run(tmp_path: Path) -> None:
 def test_every_column_holds_what_its_name_says(tmp_path: Path) -> None:
     made_up, random = synthetic_record(0.5), np.random.default_rng(1)
     plant, controller = (
-        {name: random.random(values.shape) for name, values in channels.items()}
-        for channels in (made_up.plant, made_up.controller)
+        {name: random.random(values.shape) for name, values in signals.items()}
+        for signals in (made_up.signals, made_up.signals)
     )
     write_run(replace(made_up, plant=plant, controller=controller), tmp_path)
     with (tmp_path / "record.csv").open(newline="") as file:

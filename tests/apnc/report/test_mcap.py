@@ -28,21 +28,21 @@ def test_a_walk_comes_back_from_its_log(tmp_path: Path) -> None:
     times = [stamp for stamp, _ in heard["/trunk"]]
     np.testing.assert_allclose(np.array(times) / 1e9, record.time, atol=1e-9)
     places = [[m.pose.position.x, m.pose.position.z] for _, m in heard["/trunk"]]
-    np.testing.assert_array_equal(places, record.plant["position"][:, [0, 2]])
+    np.testing.assert_array_equal(places, record.signals["position"][:, [0, 2]])
     turned = [m.pose.orientation for _, m in heard["/trunk"]]
     turns = Rotation.from_quat([[q.x, q.y, q.z, q.w] for q in turned]).as_euler("ZYX")
-    np.testing.assert_allclose(turns[:, ::-1], record.plant["rpy"], atol=1e-9)
+    np.testing.assert_allclose(turns[:, ::-1], record.signals["rpy"], atol=1e-9)
     last = heard["/joint_states"][-1][1]
     at = list(last.name).index("LF_knee")
-    assert last.position[at] == record.plant["joint_angle"][-1, 2, 2]
-    assert last.effort[at] == record.plant["joint_torque"][-1, 2, 2]
+    assert last.position[at] == record.signals["joint_angle"][-1, 2, 2]
+    assert last.effort[at] == record.signals["joint_torque"][-1, 2, 2]
     last = heard["/joint_commands"][-1][1]
-    assert last.position[list(last.name).index("LF_knee")] == record.controller["theta_knee"][-1, 2]
+    assert last.position[list(last.name).index("LF_knee")] == record.signals["theta_knee"][-1, 2]
     forces = [m.wrench.force.z for _, m in heard["/foot_force/LH"]]
-    np.testing.assert_array_equal(forces, record.plant["foot_force"][:, 3, 2])
+    np.testing.assert_array_equal(forces, record.signals["foot_force"][:, 3, 2])
     stamp = heard["/foot_force/LH"][-1][1].header.stamp
     assert stamp.sec + stamp.nanosec / 1e9 == pytest.approx(59 / 60)
-    assert [m.data for _, m in heard["/apnc/phi13"]] == record.controller["phi"][:, 1].tolist()
+    assert [m.data for _, m in heard["/apnc/phi13"]] == record.signals["phi"][:, 1].tolist()
 
 
 def test_walk_writes_a_log(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

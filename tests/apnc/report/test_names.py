@@ -43,7 +43,7 @@ def test_every_column_is_one_column(record: Record, tmp_path: Path) -> None:
     assert all(None not in row and None not in row.values() for row in rows)
     for leg, name in enumerate(NAMES):
         angles = [float(row[f"{name}.theta_hip"]) for row in rows]
-        assert np.allclose(angles, record.controller["theta_hip"][:, leg], atol=1e-8)
+        assert np.allclose(angles, record.signals["theta_hip"][:, leg], atol=1e-8)
 
 
 def test_the_gait_of_such_a_run_is_found(record: Record, tmp_path: Path) -> None:

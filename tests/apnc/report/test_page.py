@@ -35,7 +35,7 @@ def diverged(seconds: float = 5.0, broken: int = 20) -> Record:
     for k in range(broken):
         size = 10.0 ** (5 + 15 * k) if k < 19 else np.nan
         for name in ("position", "velocity", "joint_angle", "foot_force", "foot_position"):
-            record.plant[name][len(record) - broken + k] = size
+            record.signals[name][len(record) - broken + k] = size
     return replace(record, end=End.diverged, message="the motion diverged")
 
 
@@ -111,8 +111,11 @@ window.apncProbe = () => ({
 });</script>"""
 
 
+LONG = pytest.param("long", marks=pytest.mark.thorough)
+
+
 @needs_browser
-@pytest.mark.parametrize("name", RUNS)
+@pytest.mark.parametrize("name", [LONG if name == "long" else name for name in RUNS])
 def test_page_draws_and_plays_in_a_browser(name: str, tmp_path: Path) -> None:
     record = RUNS[name]()
     seen, log = look(written(record, tmp_path / "report.html"), tmp_path, SEEN)
@@ -187,7 +190,7 @@ def test_probe_notices_a_broken_page(report: Path, tmp_path: Path) -> None:
 @needs_browser
 def test_undefined_samples_are_gaps(tmp_path: Path) -> None:
     record = synthetic_record(5.0)
-    record.controller["gamma"][100:120] = np.nan
+    record.signals["gamma"][100:120] = np.nan
     seen, log = look(written(record, tmp_path / "report.html"), tmp_path)
     assert seen["errors"] == [] and console_lines(log) == []
 
@@ -204,18 +207,18 @@ def test_the_end_of_a_diverged_motion_is_not_drawn_and_that_is_said() -> None:
     record = diverged(5.0, 20)
     shown = drawable(record)
     assert len(shown) == len(record) - 20
-    assert all(len(v) == len(shown) for v in (*shown.plant.values(), *shown.controller.values()))
+    assert all(len(v) == len(shown) for v in (*shown.signals.values(), *shown.signals.values()))
     assert "From 4.67 s on the motion has no scale" in render(record, summarise(record))
     # A sound run keeps all, whatever the numbers are.
     assert len(drawable(replace(record, end=End.complete))) == len(record)
     slow = synthetic_record(2.0)
-    slow.plant["joint_work"][:] = 1e6
+    slow.signals["joint_work"][:] = 1e6
     assert len(drawable(replace(slow, end=End.diverged))) == len(slow)
 
 
 def test_knees_close_the_legs() -> None:
     record = synthetic_record(3.0, roll_amplitude=0.0, pitch_amplitude=0.0, yaw=0.7)
-    hip1, hip2, knee, foot = np.moveaxis(leg_chains(record.robot, record.plant), 2, 0)
+    hip1, hip2, knee, foot = np.moveaxis(leg_chains(record.robot, record.signals), 2, 0)
     assert np.linalg.norm(hip2 - hip1, axis=-1) == pytest.approx(0.03)
     assert np.linalg.norm(knee - hip2, axis=-1) == pytest.approx(FEMUR)
     # Holds only if the knee found from the angles fits the recorded foot.
@@ -224,9 +227,9 @@ def test_knees_close_the_legs() -> None:
 
 def test_positive_hip_and_abduction_swing_forward_and_to_the_left() -> None:
     record = synthetic_record(0.1, roll_amplitude=0.0, pitch_amplitude=0.0)
-    before = leg_chains(record.robot, record.plant)[0, :, 2]
-    record.plant["joint_angle"][..., :2] += 0.1
-    after = leg_chains(record.robot, record.plant)[0, :, 2]
+    before = leg_chains(record.robot, record.signals)[0, :, 2]
+    record.signals["joint_angle"][..., :2] += 0.1
+    after = leg_chains(record.robot, record.signals)[0, :, 2]
     assert np.all(after[:, 0] > before[:, 0])
     assert np.all(after[:, 1] > before[:, 1])
 
@@ -237,13 +240,13 @@ def test_pitch_and_roll_tilt_the_robot(points: Any) -> None:
     lower, upper = (
         (slice(0, 2), slice(2, 4)) if points is leg_chains else (slice(0, 4), slice(4, 8))
     )
-    record.plant["rpy"][:] = [0.1, 0.0, 0.0]
-    z = points(record.robot, record.plant)[0][..., 2].reshape(upper.stop, -1)[:, 0]
+    record.signals["rpy"][:] = [0.1, 0.0, 0.0]
+    z = points(record.robot, record.signals)[0][..., 2].reshape(upper.stop, -1)[:, 0]
     # Positive roll lifts the left side (y > 0): legs LF and LH, the second half of the corners.
     assert z[upper].mean() > z[lower].mean() + 0.005
-    record.plant["rpy"][:] = [0.0, 0.1, 0.0]
+    record.signals["rpy"][:] = [0.0, 0.1, 0.0]
     front, hind = ([0, 2], [1, 3]) if points is leg_chains else ([2, 3, 6, 7], [0, 1, 4, 5])
-    z = points(record.robot, record.plant)[0][..., 2].reshape(upper.stop, -1)[:, 0]
+    z = points(record.robot, record.signals)[0][..., 2].reshape(upper.stop, -1)[:, 0]
     # Positive pitch lowers the nose.
     assert z[front].mean() < z[hind].mean() - 0.005
 

@@ -82,7 +82,7 @@ def test_a_straight_walk_turns_little_in_the_median_and_in_every_run() -> None:
 
 
 def changed(record: Record, **plant: Any) -> Record:
-    return replace(record, plant=record.plant | plant)
+    return replace(record, plant=record.signals | plant)
 
 
 def test_figures_of_a_walk_on_clean_feet() -> None:
@@ -94,10 +94,10 @@ def test_figures_of_a_walk_on_clean_feet() -> None:
 
 def test_the_worst_foot_counts_and_only_from_ten_seconds_on() -> None:
     record = synthetic_record(30.0)
-    late, feet = record.time >= 10.0, record.plant["foot_position"].copy()
+    late, feet = record.time >= 10.0, record.signals["foot_position"].copy()
     feet[late, 1, 2] *= 0.5  # half the lift
     # the stride is 0.08 / 1.4 = 57 mm; this foot slides a tenth of it while it stands
-    standing = record.plant["foot_force"][:, 2, 2] > 0.0
+    standing = record.signals["foot_force"][:, 2, 2] > 0.0
     feet[:, 2, 1] += np.cumsum(standing * late) * 0.1 * (0.08 / 1.4) / (0.6 / 1.4 * 60.0)
     found = gait.measure(changed(record, foot_position=feet))
     assert found[gait.LIFT] == pytest.approx(500.0 * LIFT, rel=0.1)
@@ -108,7 +108,7 @@ def test_the_worst_foot_counts_and_only_from_ten_seconds_on() -> None:
 
 def test_a_foot_that_touches_twice_is_the_worst_of_clean_ones() -> None:
     record = synthetic_record(30.0)
-    force = record.plant["foot_force"].copy()
+    force = record.signals["foot_force"].copy()
     down = force[:, 1, 2] > 0.0
     begins, ends = (np.flatnonzero(np.diff(down.astype(int)) == sign) for sign in (1, -1))
     for begin in begins:

@@ -67,8 +67,8 @@ def through_the_states() -> Record:
     return replace(
         base,
         experiment=TIMELINE.experiment("apnc", 0),
-        plant={**base.plant, "grf": grf},
-        controller={**base.controller, "MI": mi},
+        plant={**base.signals, "grf": grf},
+        controller={**base.signals, "MI": mi},
     )
 
 
@@ -77,11 +77,11 @@ def test_loads_are_those_of_the_circuits_and_broken_sensors_stand_out() -> None:
     weight = record.experiment.parameters()["robot_weight"]
     shown = rows(over_time(record, "")[0])
     assert list(shown) == ["MI [1]", *(f"<b>{leg}</b> F [1]" for leg in record.legs)]
-    assert numbers(shown["MI [1]"][0]["y"]) == pytest.approx(record.controller["MI"])
+    assert numbers(shown["MI [1]"][0]["y"]) == pytest.approx(record.signals["MI"])
     # halves of the weight, at most F_max = 1
     expected = np.minimum(np.array([1.0, 2.0, 3.0, 40.0]) * 2 / weight, 1.0)
     for i, (ground, sound, faulty) in enumerate(list(shown.values())[1:]):
-        force = record.plant["foot_force"][:, i, 2]
+        force = record.signals["foot_force"][:, i, 2]
         assert numbers(ground["y"]) == pytest.approx(2 * force / weight, abs=1e-6)
         assert (ground["line"]["color"], faulty["line"]["color"]) == (theme.GREY, theme.VERMILLION)
         begins = 14.0 if i in (0, 2) else 20.0
@@ -103,8 +103,8 @@ def on_course(course: str, **plant: Array) -> Record:
     base = synthetic_record(60.0, frequency=1.5, speed=0.08)
     asked = experiment(course)
     commands = {name: _over(base.time, getattr(asked, name)) for name in ("mi", "turn")}
-    controller = {**base.controller, "MI": commands["mi"], "turn": commands["turn"]}
-    return replace(base, experiment=asked, plant={**base.plant, **plant}, controller=controller)
+    controller = {**base.signals, "MI": commands["mi"], "turn": commands["turn"]}
+    return replace(base, experiment=asked, plant={**base.signals, **plant}, controller=controller)
 
 
 def _over(time: Array, command: Any) -> Array:
@@ -120,7 +120,7 @@ def test_the_course_of_speeds_shows_command_speed_way_and_frequency() -> None:
     figure = speeds_over_time(record)
     shown = rows(figure)
     (command,) = shown["MI [1]"]
-    assert numbers(command["y"]) == pytest.approx(record.controller["MI"])
+    assert numbers(command["y"]) == pytest.approx(record.signals["MI"])
     raw, slow = shown["speed [m/s]"]
     assert numbers(raw["y"]) == pytest.approx(0.08) and numbers(slow["y"]) == pytest.approx(0.08)
     (way,) = shown["path [m]"]
@@ -136,7 +136,7 @@ def test_the_course_of_speeds_shows_command_speed_way_and_frequency() -> None:
 
 def test_speed_is_along_the_heading() -> None:
     base = synthetic_record(60.0)
-    turned = {name: base.plant[name].copy() for name in ("velocity", "rpy")}
+    turned = {name: base.signals[name].copy() for name in ("velocity", "rpy")}
     turned["velocity"][:, :2] = [0.0, 0.2]
     turned["rpy"][:, 2] = np.pi / 6
     raw, _ = rows(speeds_over_time(on_course("speeds", **turned)))["speed [m/s]"]
@@ -150,9 +150,9 @@ def test_the_course_of_turns_shows_command_hips_yaw_and_its_rate() -> None:
     figure = turns_over_time(record)
     shown = rows(figure)
     assert list(shown) == ["turn [1]", "hip RF [°]", "hip LF [°]", "yaw [°]", "rate [rad/s]"]
-    assert numbers(shown["turn [1]"][0]["y"]) == pytest.approx(record.controller["turn"])
+    assert numbers(shown["turn [1]"][0]["y"]) == pytest.approx(record.signals["turn"])
     for i, leg in ((0, "RF"), (2, "LF")):
-        expected = np.degrees(record.controller["theta_hip"][:, i])
+        expected = np.degrees(record.signals["theta_hip"][:, i])
         assert numbers(shown[f"hip {leg} [°]"][0]["y"]) == pytest.approx(expected, abs=1e-4)
     assert numbers(shown["yaw [°]"][0]["y"]) == pytest.approx(np.degrees(yaw), abs=1e-3)
     rate = numbers(shown["rate [rad/s]"][0]["y"])

@@ -295,7 +295,7 @@ def walk(phases: Sequence[float] = TROT, speed: float = 0.1) -> Record:
 
 
 def on_feet(record: Record, feet: Array) -> Record:
-    return replace(record, plant={**record.plant, "foot_position": feet})
+    return replace(record, plant={**record.signals, "foot_position": feet})
 
 
 def test_an_exact_straight_trot_on_clean_feet_costs_nothing() -> None:
@@ -311,7 +311,7 @@ def test_another_gait_costs_its_distance() -> None:
 
 def test_every_foot_that_hardly_lifts_costs() -> None:
     record = walk()
-    flat = record.plant["foot_position"].copy()
+    flat = record.signals["foot_position"].copy()
     flat[:, 0, 2] = 0.0
     assert feet_cost(on_feet(record, flat)) - feet_cost(record) == pytest.approx(0.35, abs=0.01)
     flat[..., 2] = 0.0
@@ -320,9 +320,9 @@ def test_every_foot_that_hardly_lifts_costs() -> None:
 
 def test_every_foot_that_slips_costs() -> None:
     record = walk()
-    feet = record.plant["foot_position"].copy()
+    feet = record.signals["foot_position"].copy()
     # in stance, 0.6 of a cycle of 1 / 1.4 s, a fifth of a stride of 0.1 / 1.4 m: twice what may be
-    standing = record.plant["foot_force"][:, 3, 2] > 0.0
+    standing = record.signals["foot_force"][:, 3, 2] > 0.0
     feet[:, 3, 1] += np.cumsum(standing) * (0.2 * 0.1 / 1.4) / (0.6 / 1.4 * 60.0)
     found = feet_cost(on_feet(record, feet)) - feet_cost(record)
     assert found == pytest.approx(0.35 * (0.2 / 0.1 - 1.0), abs=0.08)
@@ -337,9 +337,9 @@ def test_a_slow_walk_costs() -> None:
 def test_a_curve_costs_by_its_rate_to_either_side() -> None:
     record = walk()
     for sign in (1.0, -1.0):
-        rpy = record.plant["rpy"].copy()
+        rpy = record.signals["rpy"].copy()
         rpy[:, 2] = sign * 3.0 * WANTED_TURN * record.time
-        turned = replace(record, plant={**record.plant, "rpy": rpy})
+        turned = replace(record, plant={**record.signals, "rpy": rpy})
         added = feet_cost(turned) - feet_cost(record)
         assert added == pytest.approx(0.35 * np.log(4.0), abs=0.02)
 
@@ -357,9 +357,9 @@ def test_a_cost_per_band_and_name() -> None:
 
 def test_stopped_oscillators_cost_half_each() -> None:
     record = walk()
-    o1 = record.controller["o1"].copy()
+    o1 = record.signals["o1"].copy()
     o1[:, :2] = 0.3
-    stopped = replace(record, controller={**record.controller, "o1": o1})
+    stopped = replace(record, controller={**record.signals, "o1": o1})
     assert damage_cost(stopped) - damage_cost(record) == pytest.approx(1.0)
 
 
@@ -375,9 +375,9 @@ def test_slow_and_unlike_turns_cost(left: float, right: float, cost: float) -> N
     """In shares of what is asked for: what is missing on each side, and the difference."""
     record = synthetic_record(12.0)
     rate = np.where(record.time < 7.5, left, -right) * WANTED_STEERING
-    rpy = record.plant["rpy"].copy()
+    rpy = record.signals["rpy"].copy()
     rpy[:, 2] = np.cumsum(rate) / 60.0
-    turned = replace(record, plant={**record.plant, "rpy": rpy})
+    turned = replace(record, plant={**record.signals, "rpy": rpy})
     assert steering_cost(turned) == pytest.approx(cost, abs=0.02)
 
 
@@ -386,7 +386,7 @@ def stuck(settings: dict[str, float]) -> Record:
 
 
 def test_no_foot_feels_a_load_until_all_sensors_stick() -> None:
-    grf, load = stuck({}).controller["grf"], 0.9 * LILIBOT.weight / 2.0
+    grf, load = stuck({}).signals["grf"], 0.9 * LILIBOT.weight / 2.0
     # what the sensors deliver from a tick on is read at the next
     assert (grf[:301] == 0.0).all() and grf[301:] == pytest.approx(load)
 

@@ -28,7 +28,7 @@ from apnc.system.plant_fmu import PlantBuild, plant_fmu, plant_model
 from apnc_core.schema import Causality, Type
 from apnc_core.variables import scalars
 from apnc_plant import generate
-from apnc_plant.channels import PLANT_CHANNELS
+from apnc_plant.signals import PLANT_SIGNALS
 from apnc_plant.compiled import Plant
 from apnc_plant.conditions import CONDITIONS
 from apnc_plant.ground import Obstacles, Plane
@@ -80,8 +80,8 @@ def test_its_names_and_units_are_those_of_the_controller(robot: str, naming: str
 
 def test_every_channel_of_a_record_is_an_output() -> None:
     outputs = [v.name for v in TABLE if v.causality is Causality.output]
-    columns = [column for channel in PLANT_CHANNELS for column in replace(
-        channel, per_leg=False).columns(())]  # fmt: skip
+    columns = [column for signal in PLANT_SIGNALS for column in replace(
+        signal, per_leg=False).columns(())]  # fmt: skip
     assert outputs == [*columns, "fell"]
 
 
@@ -156,8 +156,8 @@ def test_a_plain_loop_is_the_direct_loop_bit_for_bit(path: Path, fmu4: Path) -> 
             controller.step(n * TS, TS, np.array(loads[-1]), 0.15, 0.0, False)
             robot.command([*controller.theta_hip, *controller.theta_knee])
             robot.step()
-    np.testing.assert_array_equal(places, record.plant["position"])
-    np.testing.assert_array_equal(loads, record.plant["grf"])
+    np.testing.assert_array_equal(places, record.signals["position"])
+    np.testing.assert_array_equal(loads, record.signals["grf"])
 
 
 STATES = [
@@ -185,14 +185,14 @@ def test_every_output_is_that_of_the_plant_stepped_directly(
         ground=Obstacles(slope=slope, roughness=rough, seed=seed) if rough else Plane(slope=slope),
         conditions=replace(conditions, payload=payload),
     )
-    names = [c for channel in PLANT_CHANNELS for c in channel.columns(
+    names = [c for signal in PLANT_SIGNALS for c in signal.columns(
         tuple(f"leg[{i}]" for i in range(1, 5)))]  # fmt: skip
     commands = np.random.default_rng(seed).uniform(-0.2, 0.2, (60, 2, 4))
     with plant(path) as robot:
         robot.start(**chosen, condition=Condition[condition].value)
         for hip, knee in commands:
             expected = direct.sample()
-            values = np.concatenate([expected[c.name].ravel() for c in PLANT_CHANNELS])
+            values = np.concatenate([expected[c.name].ravel() for c in PLANT_SIGNALS])
             np.testing.assert_array_equal(robot.get(names), values)
             robot.command([*hip, *knee])
             robot.step()

@@ -106,8 +106,8 @@ def test_a_touch_of_its_own_counts_in_a_ground_that_c_knows_too() -> None:
     assert height == pytest.approx(Plant(ROBOT).sample()["position"][2] + 0.001, abs=1e-12)
     assert len(Higher().contacts((0.0, 0.0, RADIUS + 0.0005), RADIUS)) == 1
     record = apnc.simulate(apnc.Experiment(duration=0.1, ground=Higher(), engine="compiled"))
-    assert record.plant["position"][0, 2] == height
-    assert record.plant["foot_position"][:, :, 2].min() > RADIUS
+    assert record.signals["position"][0, 2] == height
+    assert record.signals["foot_position"][:, :, 2].min() > RADIUS
 
 
 class Broken(Own):

@@ -22,7 +22,7 @@ BOUNDS = {
     "velocity": 1e-11, "joint_speed": 1e-10, "joint_torque": 1e-10, "joint_work": 1e-11,
     "foot_force": 1e-9, "grf": 1e-9,
 }  # fmt: skip
-"""Greatest difference of each channel over 10 s of a steady trot, in its unit.
+"""Greatest difference of each signal over 10 s of a steady trot, in its unit.
 
 For 8 s places differ by 1e-15 m. Then the rounding of the time that Exudyn adds up makes the last
 step of each tick 1e-14 s shorter than it should be. Forces differ most: while a foot touches down
@@ -54,7 +54,7 @@ class Walk:
         ground: Ground | None = None,
         conditions: Conditions | None = None,
     ) -> None:
-        """Walk, and compare every channel at every tick."""
+        """Walk, and compare every signal at every tick."""
         both = [
             engine(robot, 3, ground=ground, conditions=conditions)
             for engine in (PlantInExudyn, PlantInC)
@@ -116,7 +116,7 @@ def test_late_slow_and_disturbed_it_walks_as_in_exudyn(conditions: Conditions) -
 def apart(first: apnc.Record, second: apnc.Record) -> float:
     """Greatest distance of the places of two trunks [m]."""
     assert first.end == second.end and len(first.time) == len(second.time)
-    return float(np.abs(first.plant["position"] - second.plant["position"]).max())
+    return float(np.abs(first.signals["position"] - second.signals["position"]).max())
 
 
 @pytest.mark.parametrize("mi", [0.08, 0.15])

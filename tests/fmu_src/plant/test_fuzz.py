@@ -57,6 +57,7 @@ def check(program: Path, seed: int, ticks: int) -> None:
     assert min(counted["damaged"], counted["refused"]) > 0.001 * ticks
 
 
+@pytest.mark.thorough
 def test_ticks_by_chance(plain: Path) -> None:
     check(plain, 1, SHORT)
 

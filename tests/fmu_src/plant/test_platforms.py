@@ -69,7 +69,7 @@ def test_gcc_without_vectors(ours: Path, folder: Path) -> None:
     by_compiler("gcc", ours, folder, SHORT, "-O1", "-DPLANT_PLAIN")
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 @pytest.mark.parametrize("flags", [("-O2",), ("-O3", "-march=native")], ids=" ".join)
 @pytest.mark.parametrize("name", ["gcc", "clang"])
 def test_compilers_of_the_system(
@@ -85,17 +85,17 @@ def on_arm(ours: Path, folder: Path, ticks: str, optimised: str) -> None:
     assert run(emulator, program, ticks) == run(ours, ticks)
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 def test_arm(ours: Path, folder: Path) -> None:
     on_arm(ours, folder, SHORT, "-O1")
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 def test_arm_as_it_is_shipped(ours: Path, folder: Path) -> None:
     on_arm(ours, folder, LONG, "-O2")
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 @pytest.mark.parametrize("flags", [(), ("-msimd128",)], ids=["plain", "simd128"])
 def test_webassembly(flags: tuple[str, ...], ours: Path, folder: Path) -> None:
     node = tool("node", "nodejs")
@@ -106,7 +106,7 @@ def test_webassembly(flags: tuple[str, ...], ours: Path, folder: Path) -> None:
     assert run(node, "--no-warnings", host, program, LONG) == run(ours, LONG)
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 def test_windows(ours: Path, folder: Path) -> None:
     program = built((*ZIG, "-target", "x86_64-windows-gnu"), folder / "hash.exe", "-O2", "-s")
     how = runner("win64", folder)

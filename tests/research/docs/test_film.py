@@ -31,7 +31,7 @@ def test_the_frame_follows_place_and_heading() -> None:
 
 def test_the_film_shows_whole_strides_at_a_quarter_of_the_speed(tmp_path: Path) -> None:
     part = film.steady_part(WALK)
-    assert part.time[0] == pytest.approx(12.0) and len(part.plant["grf"]) == len(part) == 480
+    assert part.time[0] == pytest.approx(12.0) and len(part.signals["grf"]) == len(part) == 480
     view, feet = film.View(part), summarise(part)
     film.film(view, feet, tmp_path / "walk.gif")
     with Image.open(tmp_path / "walk.gif") as picture:

@@ -8,7 +8,7 @@ from apnc.loop.record import column_names
 from apnc.report.figures import all_figures
 from apnc.report.panels import Run
 from apnc.summary import summarise
-from apnc_plant.channels import JOINT_SIGNS
+from apnc_plant.signals import JOINT_SIGNS
 from research.docs import DOCS
 from research.docs.record import page
 

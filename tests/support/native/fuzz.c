@@ -102,7 +102,7 @@ static double odd_real(void) {
 static fmi2ValueReference some_reference(void) {
     if (one_in(20)) return draw(UINT32_MAX);
     if (one_in(4)) return APNC_VR_STRIDE * draw(4) + draw(4); /* inputs */
-    return APNC_VR_STRIDE * draw((uint32_t)apnc_row_count + (uint32_t)one_in(30)) +
+    return APNC_VR_STRIDE * draw((uint32_t)apnc_variable_count + (uint32_t)one_in(30)) +
            draw(one_in(10) ? 100 : 4);
 }
 

@@ -68,11 +68,11 @@ static double odd_real(void) {
 static size_t pick(fmi3ValueReference *vr, size_t n, apnc_type type) {
     size_t values = 0;
     for (size_t k = 0; k < n; k++) {
-        uint32_t row = draw((uint32_t)apnc_row_count);
-        while (!one_in(40) && apnc_rows[row].type != type) row = draw((uint32_t)apnc_row_count);
+        uint32_t row = draw((uint32_t)apnc_variable_count);
+        while (!one_in(40) && apnc_variables[row].type != type) row = draw((uint32_t)apnc_variable_count);
         vr[k] = APNC_VR_STRIDE * row + (one_in(40) ? draw(100) : 0);
         if (one_in(60)) vr[k] = one_in(2) ? APNC_VR_TIME : draw(UINT32_MAX);
-        values += (size_t)apnc_rows[row].count;
+        values += (size_t)apnc_variables[row].count;
     }
     return one_in(20) ? draw(VALUES) : values;
 }
