@@ -1,0 +1,231 @@
+"""Data that people write, checked by pydantic; every error is one line that names what is wrong."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import field
+from difflib import get_close_matches
+from functools import wraps
+from pathlib import Path
+from typing import Annotated, Any, Final, TypeVar, cast, dataclass_transform
+
+from pydantic import ConfigDict, Field, PydanticUserError, TypeAdapter, ValidationError
+from pydantic.dataclasses import dataclass
+
+from apnc_core.in_python import in_python
+
+Model = TypeVar("Model")
+Location = tuple[int | str, ...]
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+"""A finite number; no text and no truth value."""
+
+LONGEST: Final = 200
+"""Characters of a refused value that a message shows."""
+
+_UNKNOWN_KEY: Final = ("unexpected_keyword_argument", "extra_forbidden")
+
+
+def limits(unit: str = "", allowed: str = "", **constraints: Any) -> Any:
+    """Constraints of a field, with what a message says of them.
+
+    Args:
+        unit: unit of the numbers.
+        allowed: what is allowed, where the constraints do not say it.
+        constraints: as of ``pydantic.Field``: ``gt``, ``ge``, ``le``, ``pattern`` and so on.
+    """
+    told: Any = {name: text for name, text in (("unit", unit), ("allowed", allowed)) if text}
+    return Field(json_schema_extra=told, **constraints)
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(field, Field))
+def checked(error: type[ValueError]) -> Callable[[type[Model]], type[Model]]:
+    """Decorator that makes a frozen dataclass, whose fields are checked by their types.
+
+    Args:
+        error: what is raised for a value that is not allowed, with the line that
+            :func:`error_line` makes.
+
+    Numbers and arrays of numpy are taken as Python's own, and a table in the place of such a
+    dataclass is read as one.
+    """
+
+    def decorate(cls: type[Model]) -> type[Model]:
+        config = ConfigDict(extra="forbid")
+        made = cast(Any, dataclass(cls, frozen=True, config=config))
+        check = made.__init__
+
+        @wraps(check)
+        def init(self: Model, *args: Any, **values: Any) -> None:
+            try:
+                check(self, *in_python(args), **{k: in_python(v) for k, v in values.items()})
+            except ValidationError as refused:
+                raise error(error_line(refused, made)) from None
+
+        made.__init__ = init
+        return cast(type[Model], made)
+
+    return decorate
+
+
+def read_table(path: Path) -> dict[str, Any]:
+    """The table that a file holds: TOML if its name ends so, else JSON.
+
+    Raises:
+        ValueError: the file cannot be read or holds something else.
+    """
+    kind = "TOML" if path.suffix == ".toml" else "JSON"
+    try:
+        text = path.read_text(encoding="utf-8")
+        content = tomllib.loads(text) if kind == "TOML" else json.loads(text)
+    except OSError as error:
+        raise ValueError(f"cannot be read: {error.strerror}") from None
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"not readable as {kind} ({error})") from None
+    if not isinstance(content, dict):
+        raise ValueError("not a table of NAME: VALUE")
+    return content
+
+
+def checked_file(model: type[Model], path: Path | str) -> Model:
+    """The object that a file describes.
+
+    Args:
+        model: a pydantic model, or a dataclass that may be :func:`checked`.
+        path: TOML if its name ends so, else JSON.
+
+    Raises:
+        ValueError: one line with the path, the key, its value and what is allowed.
+    """
+    try:
+        return checked_table(model, read_table(Path(path)))
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def checked_table(
+    model: type[Model],
+    table: Mapping[str, Any],
+    *,
+    shown_as: Callable[[Location], Location] = lambda location: location,
+) -> Model:
+    """The object that a table describes.
+
+    Args:
+        model: as of :func:`checked_file`.
+        table: values by name.
+        shown_as: where the value at a location in the table stands for its author.
+
+    Raises:
+        ValueError: one line with the key, its value and what is allowed.
+    """
+    try:
+        return TypeAdapter(model).validate_python(dict(table), context={"file": True})
+    except ValidationError as error:
+        raise ValueError(error_line(error, model, shown_as)) from None
+
+
+def error_line(
+    error: ValidationError,
+    model: Any,
+    shown_as: Callable[[Location], Location] = lambda location: location,
+) -> str:
+    """A refusal of pydantic as one line: key, value and what is allowed.
+
+    Args:
+        error: the refusal; an unknown key is named first, since it explains a missing one.
+        model: what was to be made.
+        shown_as: as of :func:`checked_table`.
+
+    Items of a list are counted from 1.
+    """
+    found = sorted(error.errors(include_url=False), key=lambda e: e["type"] not in _UNKNOWN_KEY)[0]
+    location, kind = found["loc"], found["type"]
+    if kind == "missing" and location and isinstance(location[-1], int):
+        location, kind = location[:-1], "too_short"  # a tuple that ends early
+    name = ""
+    for key in shown_as(location):
+        name += f"[{key + 1}]" if isinstance(key, int) else f".{key}" if name else key
+    if kind == "value_error":  # of a check of our own, which says what is allowed
+        return ": ".join(filter(None, (name, str(found["ctx"]["error"]))))
+    value = "missing" if kind == "missing" else repr(found["input"])
+    if len(value) > LONGEST:
+        value = f"{value[:LONGEST]} ..."
+    schema = _schema_at(model, location[:-1] if kind in _UNKNOWN_KEY else location)
+    if kind in _UNKNOWN_KEY:
+        known = sorted(schema.get("properties", {}))
+        close = get_close_matches(str(location[-1]), known, 1)
+        allowed = f"only {', '.join(known)}" + (f"; did you mean {close[0]}?" if close else "")
+    else:
+        allowed = _words(schema) or found["msg"].removeprefix("Input should be ")
+    return f"{name or 'it'} is {value}; allowed: {allowed}"
+
+
+def _schema_at(model: Any, location: Location) -> dict[str, Any]:
+    """JSON schema of a value in a model; empty if there is none."""
+    try:
+        whole = TypeAdapter(model).json_schema()
+        schema = _resolved(whole, whole.get("$defs", {}))
+        for key in location:
+            if isinstance(key, int):
+                schema = schema["prefixItems"][key] if "prefixItems" in schema else schema["items"]
+            else:
+                known = schema.get("properties", {})
+                schema = known[key] if key in known else schema["additionalProperties"]
+    except (PydanticUserError, TypeError, KeyError, IndexError):
+        return {}
+    return cast(dict[str, Any], schema)
+
+
+def _resolved(node: Any, named: Mapping[str, Any]) -> Any:
+    """Part of a JSON schema with what its references stand for."""
+    if isinstance(node, list):
+        return [_resolved(entry, named) for entry in node]
+    if not isinstance(node, dict):
+        return node
+    for reference in (node, *node.get("allOf", ())):
+        if "$ref" in reference:
+            node = {**named[reference["$ref"].rpartition("/")[2]], **node}
+    return {key: _resolved(entry, named) for key, entry in node.items() if key != "$ref"}
+
+
+_KINDS: Final = {
+    "number": ("a finite number", "finite numbers"),
+    "integer": ("a whole number", "whole numbers"),
+    "boolean": ("true or false", "truth values"),
+    "string": ("a text", "texts"),
+    "object": ("a table", "tables"),
+}
+
+
+def _words(schema: Mapping[str, Any], many: bool = False) -> str:
+    """What a JSON schema allows; empty if it does not say."""
+    if "allowed" in schema:
+        return str(schema["allowed"])
+    if "enum" in schema or "const" in schema:
+        return " or ".join(map(str, schema.get("enum", [schema.get("const")])))
+    if "anyOf" in schema:
+        return " or ".join(_words(each) or "nothing" for each in schema["anyOf"])
+    if schema.get("type") == "array":
+        if items := schema.get("prefixItems"):
+            return f"{len(items)} {_words(items[0], many=True)}"
+        text = f"a list of {_words(schema.get('items', {}), many=True) or 'values'}"
+        return f"{text}, at least {schema['minItems']}" if "minItems" in schema else text
+    words = _KINDS.get(schema.get("type", ""), ("", ""))[many]
+    return words and words + _bounds(schema) + (f" [{schema['unit']}]" if "unit" in schema else "")
+
+
+def _bounds(schema: Mapping[str, Any]) -> str:
+    low, above = schema.get("minimum"), schema.get("exclusiveMinimum")
+    high, below = schema.get("maximum"), schema.get("exclusiveMaximum")
+    if low is not None and high is not None:
+        return f" from {low:g} to {high:g}"
+    texts = (
+        "" if above is None else f" above {above:g}",
+        "" if low is None else f", {low:g} or more",
+        "" if high is None else f" up to {high:g}",
+        "" if below is None else f" below {below:g}",
+    )
+    return "".join(texts)
