@@ -1,9 +1,12 @@
-"""Put a new table of claims into reproduction.md, each with its reason from reasons.toml.
+"""Put the verdicts on the paper's claims into reproduction.md, and their figures beside it.
 
 python -m research.docs.reproduction apnc-study-all/claims.md apnc-research-symmetry/claims.md
 
-A claim that is not reproduced and has no reason, or a reason whose claim is gone or was reproduced,
-stops it: reasons are written after looking at the figures, not carried along.
+The table of verdicts goes into ``docs/reproduction.md``; what was measured goes into
+``docs/reproduction/claims.md``, which is written as a whole. The words of both are in
+``reasons.toml``. A claim without an entry there, an entry without a claim, or another verdict than
+the words were written for stops it: words are written after looking at the figures, not carried
+along.
 """
 
 from __future__ import annotations
@@ -11,43 +14,129 @@ from __future__ import annotations
 import re
 import sys
 import tomllib
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Final, NamedTuple
 
 from research.docs import DOCS
+from research.docs.put_table import put
 
-HEAD = "| paper says | where | measured (median and 95 % interval) | verdict | why |"
+PAGE: Final = DOCS / "reproduction.md"
+DETAILS: Final = DOCS / "reproduction" / "claims.md"
+REASONS: Final = Path(__file__).with_name("reasons.toml")
+YES: Final = "reproduced"
+VERDICTS: Final = (YES, "partly", "not", "no verdict")
+
+HEAD: Final = """# Claim by claim
+
+<!-- written by research.docs.reproduction -->
+
+What each claim says, its verdict, the reason, and what was measured. [The paper's
+claims](../reproduction.md) says how they are judged and what the settings of the baselines are; the
+[figures](figures.md) show the runs.
+
+A time or speed is a median with its 95 % interval in brackets. *n* counts the runs that have the
+value; "-" means that none has. *rho* is Spearman's rank correlation, *p* the probability of the
+difference by chance, and *r* the rank-biserial effect.
+"""
 
 
-def table(claims: str, reasons: dict[tuple[str, str], str]) -> list[str]:
-    """Lines of the table, the column ``why`` added."""
-    lines, used = [HEAD, "|---|---|---|---|---|"], set()
+class Verdict(NamedTuple):
+    """A claim, what was measured, and what the page says of it."""
+
+    claim: str
+    where: str
+    measured: str
+    verdict: str
+    short: str
+    why: str
+
+
+def verdicts(claims: str, reasons: Sequence[dict[str, str]]) -> list[Verdict]:
+    """Claims of the tables of studies with the words for each.
+
+    Raises:
+        ValueError: a claim has no words or another verdict than they were written for, or words
+            have no claim.
+    """
+    words = {(entry["where"], entry["claim"]): entry for entry in reasons}
+    found = []
     for line in claims.splitlines():
         row = re.fullmatch(r"\| (.*?) \| (.*?) \| (.*) \| \*\*(.*)\*\* \|", line)
         if row is None:
             continue
-        text, place, _, verdict = row.groups()
-        why = reasons.get((place, text), "")
-        if (verdict == "reproduced") == bool(why):
-            sys.exit(
-                f"'{text}' ({place}) is '{verdict}': reason {'left over' if why else 'missing'}"
-            )
-        used.add((place, text))
-        lines.append(f"{line} {why} |")
-    if unknown := set(reasons) - used:
-        sys.exit(f"reasons without a claim: {sorted(unknown)}")
-    return lines
+        claim, where, measured, verdict = row.groups()
+        entry = words.pop((where, claim), None)
+        if entry is None or entry["verdict"] != verdict:
+            state = "no words" if entry is None else f"words for '{entry['verdict']}'"
+            raise ValueError(f"'{claim}' ({where}) is '{verdict}': {REASONS.name} has {state}")
+        why = " ".join(entry.get("why", "").split())
+        if bool(why) == (verdict == YES):
+            state = "is left over" if why else "is missing"
+            raise ValueError(f"'{claim}' ({where}) is '{verdict}': its reason {state}")
+        found.append(Verdict(claim, where, measured, verdict, entry["short"], why))
+    if words:
+        raise ValueError(f"{REASONS.name}: no such claims: {sorted(words)}")
+    return found
 
 
-def main(claims: Sequence[Path]) -> None:
-    """Rewrite the table of reproduction.md."""
-    with Path(__file__).with_name("reasons.toml").open("rb") as file:
-        entries = tomllib.load(file)["reason"]
-    reasons = {(e["where"], e["claim"]): " ".join(e["why"].split()) for e in entries}
-    page = DOCS / "reproduction.md"
-    before, after = re.split(r"(?m)^\| paper says .*\n(?:\|.*\n)*", page.read_text("utf-8"))
-    new = "\n".join(table("".join(path.read_text("utf-8") for path in claims), reasons)) + "\n"
-    page.write_text(before + new + after, encoding="utf-8")
+def table(found: Sequence[Verdict]) -> str:
+    """The table of verdicts, each claim with a link to its figures."""
+    lines = ["| claim | in the paper | verdict | in short |", "|---|---|---|---|"]
+    for number, each in enumerate(found, start=1):
+        link = f"[{each.claim}](reproduction/claims.md#claim-{number})"
+        lines.append(f"| {link} | {each.where} | **{each.verdict}** | {each.short} |")
+    return "\n".join(lines) + "\n"
+
+
+def counts(found: Sequence[Verdict]) -> str:
+    """How many claims have which verdict."""
+    count = Counter(each.verdict for each in found)
+    shown = [verdict for verdict in VERDICTS if count[verdict]]
+    return "\n".join((
+        f"| {' | '.join(shown)} | all |",
+        "|---" * (len(shown) + 1) + "|",
+        f"| {' | '.join(str(count[verdict]) for verdict in shown)} | {len(found)} |",
+        "",
+    ))  # fmt: skip
+
+
+def details(found: Sequence[Verdict]) -> str:
+    """The page of what was measured, a section per claim."""
+    parts = [HEAD]
+    for number, each in enumerate(found, start=1):
+        parts.append(f'\n## <a id="claim-{number}"></a>{each.claim}\n\n')
+        parts.append(f"**{each.verdict}** · {each.where}\n\n")
+        if each.why:
+            parts.append(f"{each.why}\n\n")
+        parts.append(measured(each.measured))
+    return "".join(parts)
+
+
+def measured(text: str) -> str:
+    """What was measured as a list, an item for each statement; criteria have lists of their own."""
+    lines, indent = [], ""
+    for item in text.split("; "):
+        criterion = re.match(r"(strict|authors'): ", item)
+        if criterion:
+            lines.append(f"- By the {criterion[1]} criterion:")
+            indent, item = "    ", item[criterion.end() :]
+        lines.append(f"{indent}- {item}")
+    return "\n".join(lines) + "\n"
+
+
+def main(paths: Sequence[Path]) -> None:
+    """Rewrite the tables of the page, and the page of details."""
+    reasons = tomllib.loads(REASONS.read_text("utf-8"))["reason"]
+    try:
+        found = verdicts("\n".join(path.read_text("utf-8") for path in paths), reasons)
+        page = put(PAGE.read_text("utf-8"), "verdict-counts", counts(found))
+        page = put(page, "claims", table(found))
+    except ValueError as error:
+        sys.exit(str(error))
+    PAGE.write_text(page, encoding="utf-8")
+    DETAILS.write_text(details(found), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Measure ``docs/data/verdicts.csv`` and put its table into ``docs/reproduction.md``.
+"""Measure ``docs/data/verdicts.csv`` and put its table into ``docs/reproduction/seeds.md``.
 
 nice python -m research.docs.verdicts [measure [WORKERS]]
 
@@ -17,16 +17,16 @@ from dataclasses import replace
 from typing import Final
 
 from apnc.studies.claims import NO, PARTLY, YES, findings
-from apnc.studies.engine import run_trials
 from apnc.studies.registry import ALL, STUDIES, names_of
-from apnc.studies.rows import Row
+from apnc.studies.results import Result
+from apnc.studies.runner import run_trials
 from apnc.studies.study import Trial, load
 from apnc.studies.table import markdown
 from research.docs import DOCS
 from research.docs.put_table import put
 
 FILE: Final = DOCS / "data" / "verdicts.csv"
-PAGE: Final = DOCS / "reproduction.md"
+PAGE: Final = DOCS / "reproduction" / "seeds.md"
 
 GROUPS: Final = 10
 SEEDS: Final = 20
@@ -46,14 +46,14 @@ def trials_of(name: str) -> list[Trial]:
 def measured(workers: int) -> Iterator[dict[str, str]]:
     """A line per claim and group of seeds."""
     for name in names_of(ALL):
-        groups: dict[int, list[Row]] = defaultdict(list)
-        for row in run_trials(trials_of(name), workers=workers):
-            groups[row["seed"] // SEEDS].append(row)
-        for group, rows in sorted(groups.items()):
-            for claim, found in findings(rows, load(STUDIES[name]).claims):
+        groups: dict[int, list[Result]] = defaultdict(list)
+        for result in run_trials(trials_of(name), workers=workers):
+            groups[result["seed"] // SEEDS].append(result)
+        for group, results in sorted(groups.items()):
+            for claim, found in findings(results, load(STUDIES[name]).claims):
                 yield {
                     "seeds": f"{group * SEEDS} to {group * SEEDS + SEEDS - 1}",
-                    "where": claim.place,
+                    "where": claim.section,
                     "claim": claim.text,
                     "verdict": found.verdict,
                 }
