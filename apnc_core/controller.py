@@ -24,7 +24,7 @@ from apnc_core.interface import Inputs, Outputs, Parameters
 from apnc_core.phase_acquisition import PeakMeasure, VectorMeasure
 from apnc_core.phase_estimation import Stability, Switch
 from apnc_core.types import Array
-from apnc_core.variables import row
+from apnc_core.variables import variable_named
 
 
 @dataclass
@@ -244,14 +244,14 @@ class Controller:
 
 
 def _start(name: str) -> float:
-    start = row(name).start
+    start = variable_named(name).start
     assert start is not None
     return float(start)
 
 
 def _limited(name: str, value: float, held: float) -> float:
-    """``value`` within the range of its row; what was held before if it is not a number."""
-    variable = row(name)
+    """``value`` limited to the range of its variable; ``held`` if it is not a number."""
+    variable = variable_named(name)
     assert variable.min is not None and variable.max is not None
     if not math.isfinite(value):
         return held

@@ -1,22 +1,22 @@
-"""Mappings that nobody can change."""
+"""A mapping that cannot be changed."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from typing import TypeVar
 
-Value = TypeVar("Value")
+Entry = TypeVar("Entry")
 
 
-class Frozen(Mapping[str, Value]):
+class Frozen(Mapping[str, Entry]):
     """A mapping that cannot be changed: hashable, and equal to any with the same entries."""
 
     __slots__ = ("_entries",)
 
-    def __init__(self, entries: Mapping[str, Value]) -> None:
+    def __init__(self, entries: Mapping[str, Entry]) -> None:
         self._entries = dict(entries)
 
-    def __getitem__(self, name: str) -> Value:
+    def __getitem__(self, name: str) -> Entry:
         return self._entries[name]
 
     def __iter__(self) -> Iterator[str]:

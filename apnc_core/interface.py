@@ -1,4 +1,4 @@
-"""Parameters, inputs and outputs of the controller, one field per row of the table.
+"""Parameters, inputs and outputs of the controller, one field per variable of the table.
 
 Generated from ``apnc_core/variables.py`` by ``python -m build_fmu.generate``; do not edit.
 """
@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from apnc_core.enumerations import CouplingSign, ForwardModel, KappaRule, Method, PhaseMeasure
-
-Array = NDArray[np.float64]
+from apnc_core.types import Array
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ def leg_names(n_legs: int) -> tuple[str, ...]:
             left, where ``motor_neurons.amplitude_scale`` has it.
     """
     right = n_legs // 2
-    rows = {2: ("F", "H"), 3: ("F", "M", "H")}
-    if n_legs % 2 == 0 and right in rows:
-        return tuple(side + name for side in "RL" for name in rows[right])
+    sides = {2: ("F", "H"), 3: ("F", "M", "H")}
+    if n_legs % 2 == 0 and right in sides:
+        return tuple(side + name for side in "RL" for name in sides[right])
     return tuple([f"R{i + 1}" for i in range(right)] + [f"L{i + 1}" for i in range(n_legs - right)])

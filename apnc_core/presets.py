@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from apnc_core.interface import Parameters
 from apnc_core.schema import Causality
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 
 PRESETS = ("lilibot", "paper")
 
@@ -23,5 +23,5 @@ def preset(name: str) -> Parameters:
         raise ValueError(f"preset '{name}' is not one of {', '.join(PRESETS)}")
     if name == "lilibot":
         return Parameters()
-    printed = {v.name: v.paper for v in rows(Causality.parameter) if v.paper is not None}
-    return Parameters(**printed)  # type: ignore[arg-type]  # the table is typed per row
+    printed = {v.name: v.paper for v in variables_of(Causality.parameter) if v.paper is not None}
+    return Parameters(**printed)  # type: ignore[arg-type]  # the table gives each its type

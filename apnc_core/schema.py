@@ -1,4 +1,4 @@
-"""What a row of the table of variables can say."""
+"""What the table of variables says of a variable."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import Final
 from apnc_core.enumerations import Enumeration
 
 VR_STRIDE: Final = 100
-"""Value reference = VR_STRIDE * number of the row + element, the same for any number of legs."""
+"""Value reference = VR_STRIDE * number of the variable + element, for any number of legs."""
 
 VR_TIME: Final = 9900
-"""Value reference of the independent variable, which FMI 3.0 wants; beyond all rows."""
+"""Value reference of the time, which FMI 3.0 lists as a variable; beyond all others."""
 
 MAX_LEGS: Final = 64
 
@@ -37,7 +37,7 @@ class Causality(StrEnum):
 
 
 class Shape(StrEnum):
-    """How many entries a row has: one, one per leg, or one per phase relation phi_1k."""
+    """How many entries a variable has: one, one per leg, or one per phase relation phi_1k."""
 
     scalar = "scalar"
     leg = "leg"
@@ -45,15 +45,17 @@ class Shape(StrEnum):
 
 
 Value = float | int | bool
+"""Value of one entry of a variable; an item of an enumeration is an int."""
 
 
 @dataclass(frozen=True)
 class Variable:
-    """One row of the table.
+    """A variable of a model, with one entry or several.
 
     ``start`` is the default (preset ``lilibot``); ``paper`` is the printed constant where it
-    differs (preset ``paper``). ``min`` and ``max`` are inclusive and enforced.
-    ``initial_from`` names the parameters that the initial value of an output follows from.
+    differs (preset ``paper``). ``min`` and ``max`` are inclusive; the FMU refuses or limits what
+    lies outside. ``initial_from`` names the parameters that determine the initial value of an
+    output.
     """
 
     name: str
@@ -91,13 +93,13 @@ class Variable:
 
     @property
     def identifier(self) -> str:
-        """Its name without points, as programming languages want it."""
+        """The name with underscores for points, as programming languages need it."""
         return self.name.replace(".", "_")
 
 
 @dataclass(frozen=True)
 class Scalar:
-    """One FMI scalar variable: an entry of a row."""
+    """A scalar variable of FMI: one entry of a variable."""
 
     variable: Variable
     element: int
@@ -111,11 +113,11 @@ def scalars_of(
     n_legs: int,
     naming: str = "structured",
 ) -> Iterator[Scalar]:
-    """All scalar variables, in the order of the table, legs one after the other per row.
+    """All scalar variables, in the order of the table; of each variable, leg after leg.
 
     Args:
-        table: rows.
-        numbers: number of each row, by its name.
+        table: the variables.
+        numbers: number of each variable, by its name.
         n_legs: number of legs, 2 to 64.
         naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``).
 

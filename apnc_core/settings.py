@@ -8,17 +8,20 @@ from collections.abc import Sequence
 from typing import Final
 
 from apnc_core.in_python import in_python
-from apnc_core.schema import Causality, Shape, Type, Variable
-from apnc_core.variables import rows
+from apnc_core.schema import Causality, Shape, Type, Value, Variable
+from apnc_core.variables import variables_of
 
-Setting = float | int | bool | tuple[float, ...]
-"""Value of a parameter; an item of an enumeration is an int."""
+Setting = Value | tuple[float, ...]
+"""Checked value of a parameter; a tuple if the parameter has several entries."""
 
-_PARAMETERS: Final = {v.name: v for v in rows(Causality.parameter)}
+SettingLike = Value | str | Sequence[float]
+"""Value of a parameter as it is given: the item of an enumeration may be given by its name."""
+
+_PARAMETERS: Final = {v.name: v for v in variables_of(Causality.parameter)}
 
 
 def parameter(name: str) -> Variable:
-    """The row of a parameter.
+    """The parameter of that name.
 
     Raises:
         ValueError: no such parameter.
@@ -29,12 +32,12 @@ def parameter(name: str) -> Variable:
 
 
 def checked(name: str, value: object) -> Setting:
-    """The value of a parameter in its own type.
+    """The value of a parameter in the type of that parameter.
 
     Args:
         name: of the parameter, as in the table.
         value: a number; true or false for a Boolean; name or number of an item for an enumeration;
-            a sequence of numbers for a row with one entry per phase relation.
+            a sequence of numbers for a parameter with one entry per phase relation.
 
     Raises:
         ValueError: unknown name, wrong type or out of range; a Real takes a whole number, an
@@ -43,20 +46,20 @@ def checked(name: str, value: object) -> Setting:
     return checked_in(parameter(name), value)
 
 
-def checked_in(row: Variable, value: object) -> Setting:
-    """As ``checked``, of a row of any table."""
+def checked_in(variable: Variable, value: object) -> Setting:
+    """As ``checked``, for a variable of any table."""
     value = in_python(value)
-    if row.shape is not Shape.scalar:
+    if variable.shape is not Shape.scalar:
         if isinstance(value, str) or not isinstance(value, Sequence):
-            raise _error(row.name, value, "a list of numbers")
-        return tuple(_number(row, item, value) for item in value)
-    if row.enumeration is not None:
-        return _item(row, value)
-    if row.type is Type.boolean:
+            raise _error(variable.name, value, "a list of numbers")
+        return tuple(_number(variable, item, value) for item in value)
+    if variable.enumeration is not None:
+        return _item(variable, value)
+    if variable.type is Type.boolean:
         if not isinstance(value, bool):
-            raise _error(row.name, value, "true or false")
+            raise _error(variable.name, value, "true or false")
         return value
-    return _number(row, value, value)
+    return _number(variable, value, value)
 
 
 def parse(text: str) -> tuple[str, Setting]:
@@ -76,25 +79,27 @@ def parse(text: str) -> tuple[str, Setting]:
         return name, checked(name, value)
 
 
-def _item(row: Variable, value: object) -> int:
-    assert row.enumeration is not None
-    items = row.enumeration.items
+def _item(variable: Variable, value: object) -> int:
+    assert variable.enumeration is not None
+    items = variable.enumeration.items
     if isinstance(value, str) and value in items.__members__:
         return items[value]
     if isinstance(value, int) and not isinstance(value, bool) and value in list(items):
         return items(value)
-    raise ValueError(f"{row.name} = {value!r} is not one of {', '.join(items.__members__)}")
+    raise ValueError(f"{variable.name} = {value!r} is not one of {', '.join(items.__members__)}")
 
 
-def _number(row: Variable, value: object, shown: object) -> float:
-    whole = row.type is Type.integer
-    assert row.min is not None and row.max is not None
-    allowed = f"{'a whole number' if whole else 'a number'} from {row.min:g} to {row.max:g}"
-    unit = f" [{row.unit}]" if row.unit not in (None, "1") else ""
+def _number(variable: Variable, value: object, shown: object) -> float:
+    whole = variable.type is Type.integer
+    assert variable.min is not None and variable.max is not None
+    allowed = (
+        f"{'a whole number' if whole else 'a number'} from {variable.min:g} to {variable.max:g}"
+    )
+    unit = f" [{variable.unit}]" if variable.unit not in (None, "1") else ""
     if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
-        raise _error(row.name, shown, allowed + unit)
-    if not (math.isfinite(value) and row.min <= value <= row.max):
-        raise _error(row.name, shown, allowed + unit)
+        raise _error(variable.name, shown, allowed + unit)
+    if not (math.isfinite(value) and variable.min <= value <= variable.max):
+        raise _error(variable.name, shown, allowed + unit)
     return value if whole else float(value)
 
 

@@ -1,7 +1,7 @@
-"""Types that the whole package shares."""
+"""Types of values that all packages share."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-"""Array of numbers; what uses it says its shape and unit."""
+"""Array of numbers; whoever uses it states its shape and unit."""

@@ -17,10 +17,13 @@ from apnc_core.enumerations import (
     Method,
     PhaseMeasure,
 )
-from apnc_core.row_numbers import ROW_NUMBERS
 from apnc_core.schema import VR_STRIDE, Causality, Scalar, Shape, Type, Variable, scalars_of
+from apnc_core.variable_numbers import VARIABLE_NUMBERS
 
-__all__ = ["N_WINDOW_MAX", "TABLE", "Scalar", "row", "rows", "scalars", "value_reference"]
+__all__ = [
+    "N_WINDOW_MAX", "TABLE", "Scalar", "scalars", "value_reference", "variable_named",
+    "variables_of",
+]  # fmt: skip
 
 N_WINDOW_MAX: Final = 256
 """Largest averaging window of Eq. 14 [ticks]; fixes the size of the C state."""
@@ -323,25 +326,29 @@ def scalars(n_legs: int = 4, naming: str = "structured") -> Iterator[Scalar]:
     Raises:
         ValueError: number of legs or naming outside what is allowed.
     """
-    return scalars_of(TABLE, ROW_NUMBERS, n_legs, naming)
+    return scalars_of(TABLE, VARIABLE_NUMBERS, n_legs, naming)
 
 
 def value_reference(name: str) -> int:
-    """Value reference of the first entry of the row called ``name``.
+    """Value reference of the first entry of a variable.
 
     Raises:
-        KeyError: a row without a number: ``python -m build_fmu.generate`` gives it one.
+        KeyError: the variable has no number yet; ``python -m build_fmu.generate`` gives it one.
     """
-    return VR_STRIDE * ROW_NUMBERS[name]
+    return VR_STRIDE * VARIABLE_NUMBERS[name]
 
 
-def rows(causality: Causality) -> tuple[Variable, ...]:
-    """The rows of one causality, in the order of the table."""
+def variables_of(causality: Causality) -> tuple[Variable, ...]:
+    """The variables of one causality, in the order of the table."""
     return tuple(v for v in TABLE if v.causality is causality)
 
 
-def row(name: str) -> Variable:
-    """The row called ``name``; KeyError if there is none."""
+def variable_named(name: str) -> Variable:
+    """The variable of that name.
+
+    Raises:
+        KeyError: no such variable.
+    """
     for variable in TABLE:
         if variable.name == name:
             return variable

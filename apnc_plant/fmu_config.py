@@ -13,7 +13,7 @@ from apnc_plant.generate import start_macro
 from apnc_plant.ground.obstacles import CELLS, SINK_IN, STEP_HEIGHT, TILE, Obstacles
 from apnc_plant.numbers import SUSPENSION, leg_numbers
 from apnc_plant.robot.model import GRAVITY, PAYLOAD_SIZE, RobotDescription
-from apnc_plant.variables import Condition, row, starts_of
+from apnc_plant.variables import Condition, starts_of, variable_named
 
 HEADER: Final = "robot_config.h"
 
@@ -53,7 +53,9 @@ def robot_config(robot: RobotDescription) -> bytes:
             }
         ),
         "/* Start values of parameters. */",
-        *_defines({start_macro(row(name)): (v[0], "") for name, v in starts_of(robot).items()}),
+        *_defines(
+            {start_macro(variable_named(name)): (v[0], "") for name, v in starts_of(robot).items()}
+        ),
         "/* Legs, see plant_leg. */",
         *_table("ROBOT_LEGS", (_initializer(leg_numbers(leg)) for leg in robot.legs)),
         "/* Conditions, see plant_model.c. */",

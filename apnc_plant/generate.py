@@ -12,7 +12,7 @@ from typing import Final
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
 from apnc_core.schema import Causality, Shape, Type, Variable
-from apnc_plant.row_numbers import ROW_NUMBERS
+from apnc_plant.variable_numbers import VARIABLE_NUMBERS
 from apnc_plant.variables import ENUMERATIONS, PARTS, TABLE
 from build_fmu.generate import c_unit, limits, numbers_of, snake
 
@@ -21,7 +21,7 @@ ROOT: Final = Path(__file__).resolve().parent.parent
 TARGETS: Final = {
     "plant_variables.h.j2": "fmu_src/fmi/plant_variables.h",
     "plant_variables.c.j2": "fmu_src/fmi/plant_variables.c",
-    "row_numbers.py.j2": "apnc_plant/row_numbers.py",
+    "variable_numbers.py.j2": "apnc_plant/variable_numbers.py",
 }
 
 _C_GROUP: Final = {
@@ -46,8 +46,8 @@ def _c_field(v: Variable) -> str:
     return f"{'double' if v.type is Type.real else 'int32_t'} {v.identifier}{size}"
 
 
-def _c_row(v: Variable | None) -> str:
-    """Initialiser of one entry of ``apnc_rows``; without entries for a row that is no more."""
+def _c_variable(v: Variable | None) -> str:
+    """Initialiser of one element of ``apnc_variables``; a removed variable has no entries."""
     if v is None:
         return '{"", "", "", 0, 0, APNC_REAL, APNC_LOCAL, 0.0, 1.0, -1.0}'
     several = v.shape is Shape.leg
@@ -70,12 +70,12 @@ def render() -> dict[str, str]:
     )
     env.filters |= {
         "c_field": _c_field,
-        "c_row": _c_row,
+        "c_variable": _c_variable,
         "c_unit": c_unit,
         "c_snake": snake,
         "c_const": lambda name: snake(name).upper(),
     }
-    numbers, known = numbers_of(TABLE, ROW_NUMBERS), {v.name: v for v in TABLE}
+    numbers, known = numbers_of(TABLE, VARIABLE_NUMBERS), {v.name: v for v in TABLE}
     of = {c: [v for v in TABLE if v.causality is c] for c in Causality}
     context = {
         "command": "apnc_plant.generate",

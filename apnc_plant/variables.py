@@ -1,7 +1,7 @@
 """The table of variables of a robot's FMU: names, units, ranges, start values, descriptions.
 
 Description, C structs and the table in C are made from it (``python -m apnc_plant.generate``), with
-the numbers of ``apnc_plant/row_numbers.py``. Start values of a robot's own numbers are those of the
+the numbers of ``apnc_plant/variable_numbers.py``. Start values of a robot's own numbers are those of the
 robot that is built, see :func:`starts_of`.
 """
 
@@ -12,10 +12,11 @@ from dataclasses import replace
 from enum import IntEnum
 from typing import Any, Final
 
+from apnc_plant.channels import PLANT_CHANNELS, Channel
+
 from apnc_core.enumerations import Enumeration
 from apnc_core.schema import Causality, Shape, Type, Value, Variable
-from apnc_core.variables import row as controller_row
-from apnc_plant.channels import PLANT_CHANNELS, Channel
+from apnc_core.variables import variable_named as controller_variable
 from apnc_plant.conditions import PAYLOAD
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import RobotDescription
@@ -65,7 +66,7 @@ _CONDITION, _COMPONENT = ENUMERATIONS
 def _input(name: str) -> Variable:
     """A command: what the controller's output of this name is."""
     return replace(
-        controller_row(name),
+        controller_variable(name),
         causality=Causality.input,
         variability="continuous",
         start=0.0,
@@ -195,13 +196,13 @@ TABLE: Final = (
 
 
 def starts_of(robot: RobotDescription) -> Mapping[str, tuple[Value, ...]]:
-    """Start values of a robot's own numbers, by the name of their row.
+    """Start values of a robot's own numbers, by name.
 
     Args:
         robot: the robot.
 
     Raises:
-        ValueError: a number of the robot that its row does not allow.
+        ValueError: a number of the robot that its variable does not allow.
     """
     starts: dict[str, tuple[Value, ...]] = {}
     for v in _PARAMETERS:
@@ -220,8 +221,8 @@ def starts_of(robot: RobotDescription) -> Mapping[str, tuple[Value, ...]]:
     return starts
 
 
-def row(name: str) -> Variable:
-    """The row called ``name``; KeyError if there is none."""
+def variable_named(name: str) -> Variable:
+    """The variable of that name; KeyError if there is none."""
     for variable in TABLE:
         if variable.name == name:
             return variable

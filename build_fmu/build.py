@@ -14,7 +14,7 @@ from typing import Final
 import apnc_core
 from build_fmu import sources
 from build_fmu.cache import cache_folder, write_atomically
-from build_fmu.compile import compile_library, compiler_version
+from build_fmu.compile import Progress, compile_library, compiler_version
 from build_fmu.controller import controller_model
 from build_fmu.documentation import controller_documentation
 from build_fmu.model import Model
@@ -25,8 +25,6 @@ from build_fmu.package import zip_fmu
 from build_fmu.platforms import MODEL, PLATFORMS, BuildError, host_platform, place, placed
 
 __all__ = ["build_key", "cache_folder", "cached_fmu", "fmu_bytes", "host_fmu", "write_atomically"]
-
-Progress = Callable[[str], None]
 
 READY: Final = Path(__file__).parent / "ready"
 """FMUs that came with the installed package, each named by the key of its build."""

@@ -7,11 +7,15 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
 from build_fmu.cache import cache_folder
 from build_fmu.platforms import MODEL, BuildError, Platform
+
+Progress = Callable[[str], None]
+"""Called with the name of the platform that is compiled next."""
 
 FLAGS: Final = (
     "-std=c11",

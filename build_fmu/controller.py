@@ -6,7 +6,7 @@ from typing import Final
 
 from apnc_core.enumerations import ENUMERATIONS
 from apnc_core.legs import leg_names
-from apnc_core.row_numbers import ROW_NUMBERS
+from apnc_core.variable_numbers import VARIABLE_NUMBERS
 from apnc_core.variables import TABLE
 from build_fmu.model import Model, RealType
 from build_fmu.options import MODEL, BuildOptions
@@ -36,7 +36,7 @@ def controller_model(options: BuildOptions) -> Model:
         identifier=MODEL,
         about=f"{_ABOUT}; starts with {own}" if own else _ABOUT,
         table=TABLE,
-        numbers=ROW_NUMBERS,
+        numbers=VARIABLE_NUMBERS,
         legs=leg_names(options.legs),
         starts={v.name: options.start(v) for v in TABLE},
         enumerations=ENUMERATIONS,

@@ -1,4 +1,4 @@
-"""What lies in the FMU for people: documentation, licences, icon, reference experiment."""
+"""Files in the FMU for people: documentation, licences, icon, reference experiment."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from markupsafe import Markup
 
 import apnc_core
 from apnc_core.schema import Causality, Shape, Value, Variable
+from apnc_core.settings import Setting
 from build_fmu.controller import controller_model
 from build_fmu.icon import icon_png
 from build_fmu.model import Model
-from build_fmu.options import BuildOptions, Setting, value_in_words
+from build_fmu.options import BuildOptions, value_in_words
 from build_fmu.reference import FOLDER, TICKS, TOLERANCE, reference_files
 
 _GREEK: Final = {
@@ -84,11 +85,11 @@ def _rendered(model: Model, page: Template, more: Mapping[str, object]) -> str:
         leg_names=model.legs,
         right=len(model.legs) // 2,
         fmi="2.0" if model.fmi == 2 else "3.0",
-        inputs=model.rows(Causality.input),
-        outputs=model.rows(Causality.output),
-        local=model.rows(Causality.local),
-        parameters=model.rows(Causality.parameter),
-        enumerations=[v for v in model.rows(Causality.parameter) if v.enumeration],
+        inputs=model.variables_of(Causality.input),
+        outputs=model.variables_of(Causality.output),
+        local=model.variables_of(Causality.local),
+        parameters=model.variables_of(Causality.parameter),
+        enumerations=[v for v in model.variables_of(Causality.parameter) if v.enumeration],
         of_paper=any(v.paper is not None for v in model.table),
         entry=lambda v: _entry(model, v),
         start=lambda v: value_in_words(v, _alike(model.start(v))),
@@ -97,7 +98,7 @@ def _rendered(model: Model, page: Template, more: Mapping[str, object]) -> str:
 
 
 def _entry(model: Model, v: Variable) -> str:
-    """``leg[1].grf ... leg[4].grf``, or the one name a row has."""
+    """``leg[1].grf ... leg[4].grf``, or the one name of a scalar."""
     count = model.count(v)
     if model.fmi == 3:
         return v.name if v.shape is Shape.scalar else f"{v.name} [{count}]"

@@ -14,20 +14,20 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from apnc_core import forward_model
 from apnc_core.enumerations import ENUMERATIONS
-from apnc_core.row_numbers import ROW_NUMBERS
 from apnc_core.schema import MAX_LEGS, VR_STRIDE, VR_TIME, Causality, Shape, Type, Variable
-from apnc_core.variables import N_WINDOW_MAX, TABLE, rows
+from apnc_core.variable_numbers import VARIABLE_NUMBERS
+from apnc_core.variables import N_WINDOW_MAX, TABLE, variables_of
 from build_fmu import modelica
 
 ROOT: Final = Path(__file__).resolve().parent.parent
 
 TARGETS: Final = {
     "interface.py.j2": "apnc_core/interface.py",
-    "apnc_row.h.j2": "fmu_src/core/apnc_row.h",
+    "apnc_variable.h.j2": "fmu_src/core/apnc_variable.h",
     "apnc_variables.h.j2": "fmu_src/core/apnc_variables.h",
     "apnc_variables.c.j2": "fmu_src/core/apnc_variables.c",
     "variables.md.j2": "docs/variables.md",
-    "row_numbers.py.j2": "apnc_core/row_numbers.py",
+    "variable_numbers.py.j2": "apnc_core/variable_numbers.py",
     **modelica.TARGETS,
 }
 
@@ -103,8 +103,8 @@ def c_unit(v: Variable) -> str:
     return unit + (f"Eq. {v.equation}: " if v.equation else "")
 
 
-def c_row(v: Variable | None) -> str:
-    """Initialiser of one entry of ``apnc_rows``; without entries for a row that is no more."""
+def c_variable(v: Variable | None) -> str:
+    """Initialiser of one element of ``apnc_variables``; a removed variable has no entries."""
     if v is None:
         return '{"", "", "", 0, 0, APNC_REAL, APNC_LOCAL, 0.0, 1.0, -1.0}'
     names = {Shape.scalar: f'"{v.name}", ""', Shape.leg: f'LEG("{v.name}")'}
@@ -121,13 +121,13 @@ def c_row(v: Variable | None) -> str:
     )
 
 
-def row_numbers() -> dict[str, int]:
-    """Numbers of the rows of the controller."""
-    return numbers_of(TABLE, ROW_NUMBERS)
+def variable_numbers() -> dict[str, int]:
+    """Numbers of the variables of the controller."""
+    return numbers_of(TABLE, VARIABLE_NUMBERS)
 
 
 def numbers_of(table: Iterable[Variable], given: Mapping[str, int]) -> dict[str, int]:
-    """Numbers of rows: those that were given once stay, a new row gets the next one."""
+    """Numbers of variables: those that were given once stay, a new variable gets the next one."""
     numbers = dict(given)
     for v in table:
         numbers.setdefault(v.name, len(numbers))
@@ -135,7 +135,7 @@ def numbers_of(table: Iterable[Variable], given: Mapping[str, int]) -> dict[str,
 
 
 def limits(v: Variable) -> tuple[float, float]:
-    """Inclusive range, or (1, -1) for a row without one."""
+    """Inclusive range, or (1, -1) for a variable without one."""
     if v.enumeration:
         return 1.0, float(len(v.enumeration.items))
     if v.type is Type.boolean:
@@ -182,7 +182,7 @@ def _environment() -> Environment:
         "c_const": lambda name: c_type(name).upper(),
         "c_field": c_field,
         "c_unit": c_unit,
-        "c_row": c_row,
+        "c_variable": c_variable,
         "md_entries": lambda v: {"scalar": "", "leg": "per leg", "relation": "per relation"}[
             v.shape
         ],
@@ -190,7 +190,7 @@ def _environment() -> Environment:
         "md_range": _md_range,
         "md_type": _md_type,
         "md_unit": _md_unit,
-        "md_reference": lambda v: VR_STRIDE * row_numbers()[v.name],
+        "md_reference": lambda v: VR_STRIDE * variable_numbers()[v.name],
         **modelica.FILTERS,
     }
     return env
@@ -198,9 +198,9 @@ def _environment() -> Environment:
 
 def render() -> dict[str, str]:
     """Text of every generated file by its path from the project's root."""
-    inputs, parameters = rows(Causality.input), rows(Causality.parameter)
-    outputs, local = rows(Causality.output), rows(Causality.local)
-    numbers, known = row_numbers(), {v.name: v for v in TABLE}
+    inputs, parameters = variables_of(Causality.input), variables_of(Causality.parameter)
+    outputs, local = variables_of(Causality.output), variables_of(Causality.local)
+    numbers, known = variable_numbers(), {v.name: v for v in TABLE}
     context = {
         "command": "build_fmu.generate",
         "numbers": numbers,

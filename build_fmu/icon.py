@@ -124,8 +124,8 @@ def icon_png() -> bytes:
     """The icon as a PNG file with transparency, ``SIZE`` pixels wide and high."""
     canvas = _draw()
     pixels = np.dstack([canvas.colour, canvas.alpha * 255.0])
-    rows = np.rint(pixels).astype(np.uint8).reshape(SIZE, SIZE * 4)
-    plain = b"".join(b"\0" + row.tobytes() for row in rows)
+    lines = np.rint(pixels).astype(np.uint8).reshape(SIZE, SIZE * 4)
+    plain = b"".join(b"\0" + line.tobytes() for line in lines)
     header = struct.pack(">IIBBBBB", SIZE, SIZE, 8, 6, 0, 0, 0)
     body = _chunk(b"IHDR", header) + _chunk(b"IDAT", zlib.compress(plain, 9)) + _chunk(b"IEND", b"")
     return b"\x89PNG\r\n\x1a\n" + body

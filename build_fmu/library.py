@@ -5,16 +5,14 @@ from __future__ import annotations
 import hashlib
 import importlib.resources
 import tempfile
-from collections.abc import Callable
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Final
 
 from build_fmu import compile as compiler
 from build_fmu.cache import cache_folder, write_atomically
+from build_fmu.compile import Progress
 from build_fmu.platforms import PLATFORMS, BuildError, Platform, host_platform
-
-Progress = Callable[[str], None]
 
 READY: Final = Path(__file__).parent / "ready"
 """Libraries that came with the installed package lie here, each named by its key."""

@@ -46,10 +46,10 @@ class Model:
         identifier: its name, and that of the libraries.
         about: what it is, in one line.
         table: its variables.
-        numbers: number of each row by name, from which value references follow.
+        numbers: number of each variable by name, from which value references follow.
         legs: names of the legs.
-        starts: start values, one per entry, of rows that do not start as the table says.
-        enumerations: enumeration types of the rows.
+        starts: start values, one per entry, of variables that do not start as the table says.
+        enumerations: enumeration types of the variables.
         types: type of real numbers by unit.
         log_categories: what each says.
         step: communication step of the default experiment [s].
@@ -83,49 +83,49 @@ class Model:
         """All scalar variables, in the order of the table."""
         return list(scalars_of(self.table, self.numbers, len(self.legs), self.naming))
 
-    def rows(self, causality: Causality) -> tuple[Variable, ...]:
-        """The rows of one causality, in the order of the table."""
+    def variables_of(self, causality: Causality) -> tuple[Variable, ...]:
+        """The variables of one causality, in the order of the table."""
         return tuple(v for v in self.table if v.causality is causality)
 
-    def row(self, name: str) -> Variable:
-        """The row of a name."""
+    def variable_named(self, name: str) -> Variable:
+        """The variable of that name."""
         return next(v for v in self.table if v.name == name)
 
     def reference(self, v: Variable) -> int:
-        """Value reference of the first entry of a row."""
+        """Value reference of the first entry of a variable."""
         return VR_STRIDE * self.numbers[v.name]
 
     def count(self, v: Variable) -> int:
-        """Entries of a row."""
+        """Number of entries of a variable."""
         return v.count(len(self.legs))
 
     def start(self, v: Variable) -> tuple[Value, ...]:
-        """Start values of a row, one per entry; empty for an output."""
+        """Start values of a variable, one per entry; empty for an output."""
         if v.name in self.starts:
             return self.starts[v.name]
         return () if v.start is None else (v.start,) * self.count(v)
 
     def type_of(self, v: Variable) -> Type:
-        """FMI type of a row: an enumeration becomes an integer where the build says so."""
+        """FMI type of a variable; an enumeration is an integer if the build says so."""
         if v.enumeration and self.enumerations_as == "integer":
             return Type.integer
         return v.type
 
     @property
     def units(self) -> tuple[str, ...]:
-        """Units of the rows, in the order of the types."""
+        """Units of the variables, in the order of the types."""
         used = {v.unit for v in self.table}
         return tuple(unit for unit in self.types if unit in used)
 
     def describe(self, v: Variable) -> str:
-        """Description of a row, with the items of an enumeration that is an integer."""
+        """Description of a variable, with the items of an enumeration that is an integer."""
         if v.enumeration and self.type_of(v) is Type.integer:
             items = ", ".join(f"{item.value} {item.name}" for item in v.enumeration.items)
             return f"{v.description}: {items}"
         return v.description
 
     def describe_entry(self, v: Variable, element: int) -> str:
-        """Description of one entry of a row, with the leg or the legs it belongs to."""
+        """Description of one entry of a variable, with the leg or the legs it belongs to."""
         if v.shape is Shape.leg:
             return f"{self.legs[element]}: {self.describe(v)}"
         if v.shape is Shape.relation:

@@ -107,7 +107,9 @@ def _structure(parent: etree._Element, members: list[Scalar], model: Model) -> N
     initial = etree.SubElement(parent, "InitialUnknowns")
     for member in outputs:
         sources = sorted(
-            position[name, 0 if model.row(name).shape is Shape.scalar else member.element]
+            position[
+                name, 0 if model.variable_named(name).shape is Shape.scalar else member.element
+            ]
             for name in member.variable.initial_from
         )
         etree.SubElement(

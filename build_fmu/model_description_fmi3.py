@@ -1,4 +1,4 @@
-"""modelDescription.xml of FMI 3.0, from the table of variables: one array per row."""
+"""modelDescription.xml of FMI 3.0, from the table of variables: legs as arrays."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def _add_variable(parent: etree._Element, v: Variable, model: Model) -> None:
 def _add_structure(parent: etree._Element, model: Model) -> None:
     """Outputs change in steps only, so none depends on an input at the same instant."""
     reference = {v.name: str(model.reference(v)) for v in model.table}
-    outputs = model.rows(Causality.output)
+    outputs = model.variables_of(Causality.output)
     for v in outputs:
         etree.SubElement(parent, "Output", valueReference=reference[v.name], dependencies="")
     for v in outputs:

@@ -12,7 +12,7 @@ from typing import Any, Final
 
 from apnc_core import dual_rate_learner, forward_model, load, phase_reset
 from apnc_core.schema import MAX_LEGS, Causality, Shape, Type, Variable
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 
 PACKAGE: Final = "modelica/Apnc"
 
@@ -64,7 +64,7 @@ def groups() -> dict[str, list[Variable]]:
     Raises:
         ValueError: a group names a parameter that the table does not have.
     """
-    parameters = {v.name: v for v in rows(Causality.parameter)}
+    parameters = {v.name: v for v in variables_of(Causality.parameter)}
     named = [name for names in GROUPS.values() for name in names]
     if unknown := sorted(set(named) - set(parameters)):
         raise ValueError(f"the table has no parameter {', '.join(unknown)}")
@@ -185,7 +185,9 @@ def amalgamation(generated: Mapping[str, str]) -> str:
 
     text = "\n".join([*inlined("controller.c"), *inlined("apnc_variables.c")])
     text = re.sub(r"^(?=(?:void|int|double) apnc_\w+\()", "static ", text, flags=re.MULTILINE)
-    text = re.sub(r"^(extern )?const apnc_row", "static const apnc_row", text, flags=re.MULTILINE)
+    text = re.sub(
+        r"^(extern )?const apnc_variable", "static const apnc_variable", text, flags=re.MULTILINE
+    )
     return (
         "/* The C core of the controller in one file.\n *\n"
         " * Generated from fmu_src/core by `python -m build_fmu.generate`; do not edit.\n */\n"
@@ -214,7 +216,7 @@ def context() -> dict[str, Any]:
         "quantities": {name: unit for unit, name in QUANTITIES.items()},
         "paper_modifications": [
             f"{v.name}={mo_value(v, v.paper)}"
-            for v in rows(Causality.parameter)
+            for v in variables_of(Causality.parameter)
             if v.paper is not None
         ],
         "constants": [

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 
-from apnc_core import settings
+from apnc_core import settings as core_settings
 from apnc_core.in_python import in_python
 from apnc_core.interface import Parameters
 from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import MAX_LEGS, Causality, Value, Variable
-from apnc_core.variables import TABLE, row
+from apnc_core.settings import Setting, SettingLike
+from apnc_core.variables import TABLE, variable_named
 from build_fmu.model import NAMINGS, check_choices
 from build_fmu.platforms import (
     MODEL,
@@ -25,9 +26,6 @@ __all__ = [
     "MODEL", "NAMINGS", "PLATFORMS", "BuildError", "BuildOptions", "Platform", "host_platform",
 ]  # fmt: skip
 
-Setting = Value | str | Sequence[float]
-"""A value of a parameter: a number, a flag, an item of an enumeration by name, or one per entry."""
-
 
 @dataclass(frozen=True)
 class BuildOptions:
@@ -36,7 +34,7 @@ class BuildOptions:
     Args:
         legs: number of legs, 2 to 64.
         naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``), for FMI 2.0; in FMI 3.0
-            the entries of a row are an array and both are alike.
+            the entries of a variable are an array and both are alike.
         platforms: names (FMI 2.0.5 folders) of the binaries to include; empty for sources only.
         fmi: version of the standard, 2 or 3.
         preset: set of parameters that the FMU starts with.
@@ -54,7 +52,7 @@ class BuildOptions:
     platforms: tuple[str, ...] = tuple(PLATFORMS)
     fmi: int = 2
     preset: str = "lilibot"
-    settings: Mapping[str, Setting] = field(default_factory=dict, hash=False)
+    settings: Mapping[str, SettingLike] = field(default_factory=dict, hash=False)
     memory: tuple[float, ...] = ()
     enumerations: str = "enumeration"
 
@@ -68,7 +66,7 @@ class BuildOptions:
             raise BuildError(f"preset '{self.preset}' is not one of {', '.join(PRESETS)}")
         check_platforms(self.platforms)
         check_choices(self.naming, self.fmi, self.enumerations)
-        chosen: dict[str, Setting] = {}
+        chosen: dict[str, SettingLike] = {}
         if self.memory:
             chosen = {"stored": True, "phi_stored": tuple(self.memory)}
         own = {name: checked(name, value) for name, value in (chosen | dict(self.settings)).items()}
@@ -86,7 +84,7 @@ class BuildOptions:
         return Parameters(**(values | dict(self.settings)))
 
     def start(self, v: Variable) -> tuple[Value, ...]:
-        """Start values of a row, one per entry; empty for an output."""
+        """Start values of a variable, one per entry; empty for an output."""
         if v.start is None:
             return ()
         value: Value | tuple[float, ...] = v.start
@@ -97,7 +95,7 @@ class BuildOptions:
         return value or (v.start,) * v.count(self.legs)
 
     def changed(self) -> list[Variable]:
-        """The rows whose start values are not those of the table."""
+        """The variables whose start values are not those of the table."""
         return [v for v in TABLE if set(self.start(v)) - {v.start}]
 
     def own_defaults(self) -> str:
@@ -107,13 +105,13 @@ class BuildOptions:
         return ", ".join(parts)
 
 
-def in_words(name: str, value: Setting) -> str:
+def in_words(name: str, value: SettingLike) -> str:
     """A value of a parameter as a person reads it: items by name, true and false in lower case."""
-    return value_in_words(row(name), value)
+    return value_in_words(variable_named(name), value)
 
 
-def value_in_words(v: Variable, value: Setting) -> str:
-    """As ``in_words``, of a row of any table."""
+def value_in_words(v: Variable, value: SettingLike) -> str:
+    """As ``in_words``, for a variable of any table."""
     if isinstance(value, Sequence):
         return " ".join(f"{x:.6g}" for x in value)
     if v.enumeration:
@@ -121,13 +119,13 @@ def value_in_words(v: Variable, value: Setting) -> str:
     return str(value).lower() if isinstance(value, bool) else f"{value:.6g}"
 
 
-def checked(name: str, value: Setting) -> settings.Setting:
-    """The value in the type of its row, see :func:`apnc_core.settings.checked`.
+def checked(name: str, value: SettingLike) -> Setting:
+    """The value in the type of its parameter, see :func:`apnc_core.settings.checked`.
 
     Raises:
         BuildError: no such parameter, or a value of another type or outside the range.
     """
     try:
-        return settings.checked(name, value)
+        return core_settings.checked(name, value)
     except ValueError as error:
         raise BuildError(str(error)) from None

@@ -56,48 +56,48 @@ def reference_files(options: BuildOptions) -> dict[str, bytes]:
 
 def _stimuli(inputs: list[Scalar], legs: int) -> list[list[float]]:
     """Trotting loads, steering, a robot lifted off the ground and set down; rounded as written."""
-    rows = []
+    samples = []
     for n in range(TICKS + 1):
         t = n / _TICKS_PER_S
         lifted = _LIFTED_S[0] <= t < _LIFTED_S[1]
-        row = []
+        sample = []
         for m in inputs:
             if m.variable.name == "grf":
                 diagonal = (m.element + (m.element >= (legs + 1) // 2)) % 2
                 lift = np.sin(2 * np.pi * _STRIDE_HZ * t + np.pi * diagonal + 0.1 * m.element)
-                row.append(0.0 if lifted else round(15.0 * max(0.0, float(lift)), 6))
+                sample.append(0.0 if lifted else round(15.0 * max(0.0, float(lift)), 6))
             elif m.variable.name == "MI":
-                row.append(0.15)
+                sample.append(0.15)
             elif m.variable.name == "turn":
-                row.append(0.5 if _STEERED_S[0] <= t < _STEERED_S[1] else 0.0)
+                sample.append(0.5 if _STEERED_S[0] <= t < _STEERED_S[1] else 0.0)
             else:
-                row.append(0.0)
-        rows.append(row)
-    return rows
+                sample.append(0.0)
+        samples.append(sample)
+    return samples
 
 
 def _results(
     p: Parameters, inputs: list[Scalar], shown: list[Scalar], stimuli: list[list[float]]
 ) -> list[list[float]]:
-    """What is read after each step, the first row before the first step."""
+    """What is read before the first step and after each step."""
     legs = sum(m.variable.name == "grf" for m in inputs)
     controller = Controller(p, legs)
     place = {(m.variable.name, m.element): i for i, m in enumerate(inputs)}
     grf = [place["grf", leg] for leg in range(legs)]
-    rows: list[list[float]] = []
+    samples: list[list[float]] = []
     for given in stimuli[:-1]:
         loads = np.array([given[i] for i in grf])
         outputs = controller.tick(
             Inputs(loads, given[place["MI", 0]], given[place["turn", 0]], reset=False)
         )
-        rows.append(_row(outputs, shown))
+        samples.append(_sample(outputs, shown))
     # before the first step the outputs are those of tick 0, which none of the loads has touched
     start = Controller(p, legs).tick(Inputs(np.zeros(legs), reset=True))
-    first = _row(replace(start, tick=0), shown)
-    return [first, *rows]
+    first = _sample(replace(start, tick=0), shown)
+    return [first, *samples]
 
 
-def _row(outputs: Outputs, shown: list[Scalar]) -> list[float]:
+def _sample(outputs: Outputs, shown: list[Scalar]) -> list[float]:
     values = []
     for m in shown:
         value = np.atleast_1d(getattr(outputs, m.variable.name))
@@ -105,12 +105,12 @@ def _row(outputs: Outputs, shown: list[Scalar]) -> list[float]:
     return values
 
 
-def _csv(members: list[Scalar], rows: list[list[float]], Ts: float) -> bytes:
+def _csv(members: list[Scalar], samples: list[list[float]], Ts: float) -> bytes:
     lines = [",".join(["time", *(m.name for m in members)])]
-    for n, row in enumerate(rows):
+    for n, sample in enumerate(samples):
         texts = [
             f"{value + 0.0:.6f}" if m.variable.type is Type.real else str(int(value))
-            for m, value in zip(members, row, strict=True)
+            for m, value in zip(members, sample, strict=True)
         ]
         lines.append(",".join([repr(n * Ts), *texts]))
     # minus zero reads like a mistake
@@ -129,7 +129,7 @@ def _manifest() -> bytes:
     for source, role, kind, description in (
         ("experiments.exp", "experiment/smoke-test", "application/x-ma-hs-experiments",
          "trotting loads, steering, couplings on"),
-        ("stimuli.csv", "testcase", "text/csv", "inputs of the experiment, held between rows"),
+        ("stimuli.csv", "testcase", "text/csv", "inputs of the experiment, held in between"),
         ("results.csv", "result", "text/csv", "outputs of the experiment after each step"),
         ("../../documentation/index.html", "document", "text/html", "what this FMU is"),
     ):  # fmt: skip

@@ -22,7 +22,7 @@ PLANT: Final = "plant"
 """The models that the shell is built for."""
 
 _FOLDERS: Final = {CONTROLLER: ("core", "fmi"), PLANT: ("plant", "fmi")}
-_SHARED: Final = ("apnc_names.h", "apnc_real.h", "apnc_row.h")
+_SHARED: Final = ("apnc_names.h", "apnc_real.h", "apnc_variable.h")
 """Headers of the core that the shell needs of whatever model."""
 
 _CONFIGURED: Final = ("apnc_config.h", "plant_config.h", "robot_config.h")

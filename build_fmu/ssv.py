@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Final
 
 from lxml import etree
 
 from apnc_core.schema import Causality, Shape, Type, Variable
-from apnc_core.variables import rows
+from apnc_core.settings import Setting, SettingLike
+from apnc_core.variables import variables_of
 from build_fmu.cache import write_atomically
 from build_fmu.description_parts import UNITS, number
-from build_fmu.options import NAMINGS, Setting, checked
+from build_fmu.options import NAMINGS, checked
 from build_fmu.platforms import BuildError
 
 _SSV: Final = "http://ssp-standard.org/SSP1/SystemStructureParameterValues"
 _SSC: Final = "http://ssp-standard.org/SSP1/SystemStructureCommon"
 
 
-def write_ssv(settings: dict[str, Setting], path: Path, naming: str = "structured") -> None:
+def write_ssv(settings: Mapping[str, SettingLike], path: Path, naming: str = "structured") -> None:
     """Write parameters as an SSV file.
 
     Args:
-        settings: values by parameter name; one per entry for rows with several.
+        settings: values by parameter name; one per entry for a parameter with several.
         path: file to write.
         naming: of the FMU they are for, ``structured`` or ``flat``.
 
@@ -37,7 +39,7 @@ def write_ssv(settings: dict[str, Setting], path: Path, naming: str = "structure
     root.set("version", "1.0")
     root.set("name", "apnc")
     parameters = etree.SubElement(root, f"{{{_SSV}}}Parameters")
-    used = [v for v in rows(Causality.parameter) if v.name in values]
+    used = [v for v in variables_of(Causality.parameter) if v.name in values]
     for v in used:
         value = values[v.name]
         entries = value if isinstance(value, tuple) else (value,)
@@ -93,7 +95,7 @@ def read_ssv(path: Path) -> dict[str, Setting]:
         raise BuildError(f"{path} is not an SSV file: {error.msg}") from None
     if root.tag != f"{{{_SSV}}}ParameterSet":
         raise BuildError(f"{path} is not an SSV file of SSP 1.0: its root is {root.tag}")
-    single: dict[str, Setting] = {}
+    single: dict[str, SettingLike] = {}
     several: dict[str, dict[int, float]] = {}
     for parameter in root.iterfind(f"{{{_SSV}}}Parameters/{{{_SSV}}}Parameter"):
         try:
@@ -112,9 +114,9 @@ def read_ssv(path: Path) -> dict[str, Setting]:
 
 
 def _entry(parameter: etree._Element) -> tuple[Variable, int, float | str]:
-    """Row, entry and value of one Parameter element."""
+    """Parameter, entry and value of one Parameter element."""
     name = parameter.get("name", "")
-    v, element = _row_of(name)
+    v, element = _parameter_of(name)
     typed = next((e for e in parameter if etree.QName(e).localname in set(Type)), None)
     if typed is None:
         raise BuildError(f"{name} has no number, flag or item")
@@ -133,10 +135,10 @@ def _entry(parameter: etree._Element) -> tuple[Variable, int, float | str]:
         raise BuildError(f"{name} = '{text}' is not a number") from None
 
 
-def _row_of(name: str) -> tuple[Variable, int]:
-    for v in rows(Causality.parameter):
+def _parameter_of(name: str) -> tuple[Variable, int]:
+    for v in variables_of(Causality.parameter):
         for element in range(v.count(64)):
             if name in (v.scalar_name(element, naming) for naming in NAMINGS):
                 return v, element
-    known = ", ".join(v.name for v in rows(Causality.parameter))
+    known = ", ".join(v.name for v in variables_of(Causality.parameter))
     raise BuildError(f"parameter '{name}' is not one of {known}")

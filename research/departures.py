@@ -6,17 +6,18 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
-
-from apnc.loop.experiment import Experiment, Setting
-from apnc.loop.record import Record
 from apnc.studies.rows import Row, matching, successes, values
+
+from apnc.loop.experiment import Experiment
+from apnc.loop.record import Record
 from apnc.studies.states.measure import STOPPED
 from apnc.studies.states.measure import measure as judged
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.study import COURSE_MI, WALK_MI, Study
 from apnc.studies.table import markdown, middle
 from apnc_core.schema import Causality
-from apnc_core.variables import rows as variables
+from apnc_core.settings import SettingLike
+from apnc_core.variables import variables_of as variables
 from research.command import main
 from research.registry import STUDIES
 
@@ -27,7 +28,7 @@ TOGETHER: Final = (
 )  # fmt: skip
 """Parameters that differ from the paper or the authors' code, those that belong together in one."""
 
-PRINTED: Final[Mapping[str, Setting]] = {
+PRINTED: Final[Mapping[str, SettingLike]] = {
     v.name: v.paper
     for v in variables(Causality.parameter)
     if v.paper is not None and v.paper != v.start
@@ -35,7 +36,7 @@ PRINTED: Final[Mapping[str, Setting]] = {
 
 NONE: Final = "none"
 
-REMOVED: Final[Mapping[str, Mapping[str, Setting]]] = {
+REMOVED: Final[Mapping[str, Mapping[str, SettingLike]]] = {
     NONE: {},
     **{
         ", ".join(own): {name: PRINTED[name] for name in own}
@@ -108,7 +109,7 @@ def _line(removed: str, rows: Sequence[Row]) -> dict[str, str]:
     return entries
 
 
-def _text(value: Setting) -> str:
+def _text(value: SettingLike) -> str:
     return str(getattr(value, "name", value))
 
 

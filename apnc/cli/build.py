@@ -12,7 +12,7 @@ from typer import Option
 from apnc.cli.console import File, Text, Texts, apart, file_option, given, say, status, writable
 
 if TYPE_CHECKING:
-    from build_fmu.options import Setting
+    from apnc_core.settings import SettingLike
 
 
 def build(
@@ -78,11 +78,11 @@ def platform_names(words: list[str] | None) -> tuple[str, ...]:
 
 def _of_robot(
     name: str | None, legs: int | None, *, own: bool
-) -> tuple[tuple[str, ...], dict[str, Setting]]:
+) -> tuple[tuple[str, ...], dict[str, SettingLike]]:
     """Names of the legs, and weight and preset of the robot that is named or else shipped."""
     from apnc_core.legs import leg_names
     from apnc_core.schema import MAX_LEGS
-    from apnc_core.variables import row
+    from apnc_core.variables import variable_named
     from apnc_plant.robot import ROBOTS, load_robot
 
     if name is None:
@@ -95,8 +95,8 @@ def _of_robot(
         robot = load_robot(name)
         if legs not in (None, len(robot.legs)):
             raise ValueError(f"legs = {legs}: robot '{robot.name}' has {len(robot.legs)}")
-    settings: dict[str, Setting] = dict(robot.controller) if own else {}
-    usual = row("robot_weight").start
+    settings: dict[str, SettingLike] = dict(robot.controller) if own else {}
+    usual = variable_named("robot_weight").start
     if usual is None or not math.isclose(robot.weight, usual):
         settings["robot_weight"] = robot.weight
     return tuple(leg.name for leg in robot.legs), settings

@@ -17,7 +17,7 @@ from apnc.loop.record import End, Record
 from apnc.loop.steps import steps_of
 from apnc_core.schema import Shape
 from apnc_core.types import Array
-from apnc_core.variables import row
+from apnc_core.variables import variable_named
 from apnc_plant.chance import side_offset
 from apnc_plant.ground import GroundInC
 from apnc_plant.library import aligned_memory, library
@@ -116,7 +116,7 @@ class Run:
         channels, start, ticks = {}, 0, self.experiment.ticks
         for name, size in self._controller.sizes.items():
             values = self._shown[start : start + ticks * size]
-            scalar = row(name).shape is Shape.scalar
+            scalar = variable_named(name).shape is Shape.scalar
             channels[name] = (values if scalar else values.reshape(ticks, size))[:count]
             start += ticks * size
         return channels

@@ -14,7 +14,6 @@ from typing import Any, Final
 
 from apnc.loop.fmu_controller import (
     FmuError,
-    Setting,
     check_fmu,
     entries_of,
     members_by_name,
@@ -24,7 +23,8 @@ from apnc.loop.fmu_controller import (
 )
 from apnc_core import settings
 from apnc_core.schema import Causality, Type
-from apnc_core.variables import Scalar, row, scalars
+from apnc_core.settings import SettingLike
+from apnc_core.variables import Scalar, scalars, variable_named
 from apnc_plant.library import library
 from build_fmu.platforms import BuildError, library_of, why_not_loaded
 
@@ -139,7 +139,7 @@ class ControllerLibrary:
         return fields
 
     def parameters_of(self, values: Sequence[float]) -> dict[str, settings.Setting]:
-        """Parameters by row name, of what C has read back.
+        """Parameters by name, of what C has read back.
 
         Args:
             values: in the order of :attr:`parameters`.
@@ -147,9 +147,11 @@ class ControllerLibrary:
         entries: dict[str, list[float]] = {}
         for member, value in zip(self.parameters, values, strict=True):
             entries.setdefault(member.variable.name, []).append(value)
-        return {name: parameter_of(row(name), several) for name, several in entries.items()}
+        return {
+            name: parameter_of(variable_named(name), several) for name, several in entries.items()
+        }
 
-    def starts(self, parameters: Mapping[str, Setting]) -> tuple[Any, tuple[Any, ...]]:
+    def starts(self, parameters: Mapping[str, SettingLike]) -> tuple[Any, tuple[Any, ...]]:
         """Start values as ``loop_starts``, and what it points to.
 
         Raises:

@@ -20,17 +20,15 @@ from apnc_core.enumerations import Method
 from apnc_core.frozen import Frozen
 from apnc_core.in_python import in_python
 from apnc_core.presets import PRESETS, preset
-from apnc_core.schema import Causality, Value
-from apnc_core.settings import checked
-from apnc_core.variables import row, rows
+from apnc_core.schema import Causality
+from apnc_core.settings import SettingLike, checked
+from apnc_core.variables import variable_named, variables_of
 from apnc_plant.chance import LARGEST_SEED
 from apnc_plant.conditions import CONDITIONS, Conditions, named_conditions
 from apnc_plant.ground import Ground, Plane, from_dict
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
 from apnc_plant.robot.model import OF_THE_RUN
-
-Setting = Value | Sequence[float]
 
 OWN_PRESET: Final = "robot"
 """The preset that takes the table's defaults and what the robot's file sets of them."""
@@ -86,7 +84,7 @@ class Experiment:
     seed: int = 0
     method: str = None  # type: ignore[assignment]  # a text once it is made
     preset: str = OWN_PRESET
-    settings: Mapping[str, Setting] = field(default_factory=dict)
+    settings: Mapping[str, SettingLike] = field(default_factory=dict)
     ground: Ground = field(default_factory=Plane)
     conditions: Over[str | Conditions] = "C1"
     turn: Over[float] = 0.0
@@ -143,14 +141,14 @@ class Experiment:
 
     def _of_fmu(self) -> dict[str, Any]:
         """Fields that the FMU says itself, or else the defaults."""
-        own: dict[str, Any] = {name: row(name).start for name in SET_ELSEWHERE}
+        own: dict[str, Any] = {name: variable_named(name).start for name in SET_ELSEWHERE}
         own |= self.fmu_starts
         return {"rate": 1.0 / own["Ts"], "method": Method(own["method"]).name}
 
     def _check_times(self) -> None:
         for name in _NUMBERS:
             _number(name, getattr(self, name))
-        limits = row("Ts")
+        limits = variable_named("Ts")
         assert limits.min is not None and limits.max is not None
         if not (self.rate > 0.0 and limits.min <= 1.0 / self.rate <= limits.max):
             allowed = f"{1.0 / limits.max:g} ... {1.0 / limits.min:g} Hz"
@@ -183,7 +181,7 @@ class Experiment:
         return _shipped(self.robot) if Path(self.robot).suffix == "" else load_robot(self.robot)
 
     @cached_property
-    def fmu_starts(self) -> Mapping[str, Setting]:
+    def fmu_starts(self) -> Mapping[str, SettingLike]:
         """Own start values of ``fmu``: parameters by name that are not at their default in it.
 
         Raises:
@@ -201,14 +199,14 @@ class Experiment:
             )
         return values
 
-    def parameters(self) -> dict[str, Setting]:
+    def parameters(self) -> dict[str, SettingLike]:
         """Every parameter of the controller by name, as it is set.
 
         What comes first holds: settings, a preset that is named, own start values of the FMU, what
         the robot's file sets, and the weight of the robot, the defaults. ``Ts`` and ``method`` are
         set by the fields, and a preset sets nothing that belongs to the run.
         """
-        known = [v.name for v in rows(Causality.parameter)]
+        known = [v.name for v in variables_of(Causality.parameter)]
         own, of_fmu = {}, dict(self.fmu_starts)
         if self.preset == OWN_PRESET:
             chosen, own = preset("lilibot"), dict(self.description.controller)
@@ -218,7 +216,7 @@ class Experiment:
         else:
             allowed = ", ".join((OWN_PRESET, *PRESETS))
             raise ValueError(f"preset '{self.preset}' is not one of {allowed}")
-        values: dict[str, Setting] = {name: getattr(chosen, name) for name in known}
+        values: dict[str, SettingLike] = {name: getattr(chosen, name) for name in known}
         values |= {"robot_weight": self.description.weight, **own, **of_fmu}
         values |= {"Ts": self.Ts, "method": Method[self.method]}
         for name, value in self.settings.items():
@@ -233,7 +231,7 @@ class Experiment:
             )
         return values
 
-    def starts(self) -> dict[str, Setting]:
+    def starts(self) -> dict[str, SettingLike]:
         """What the controller is set to: relations that are 0 only if it starts with others."""
         values = self.parameters()
         if not values["phi_stored"]:
@@ -358,7 +356,7 @@ def _number(name: str, value: Any) -> None:
 
 
 def _in_range(variable: str, value: Any, name: str) -> None:
-    limits = row(variable)
+    limits = variable_named(variable)
     assert limits.min is not None and limits.max is not None
     _number(name, value)
     if not limits.min <= value <= limits.max:
@@ -371,7 +369,7 @@ def _boolean(name: str, value: Any) -> None:
 
 
 def _setting_text(name: str, value: Any) -> str:
-    enumeration = row(name).enumeration
+    enumeration = variable_named(name).enumeration
     if enumeration:
         return enumeration.items(value).name
     return json.dumps(plain(value))

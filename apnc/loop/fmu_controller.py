@@ -19,13 +19,11 @@ from fmpy.fmi1 import FMICallException
 from apnc_core import settings
 from apnc_core.in_python import in_python
 from apnc_core.schema import Causality, Shape, Type, Value, Variable
+from apnc_core.settings import SettingLike
 from apnc_core.types import Array
-from apnc_core.variables import TABLE, Scalar, row, scalars
+from apnc_core.variables import TABLE, Scalar, scalars, variable_named
 from apnc_plant.trace import Trace
 from build_fmu.platforms import BuildError, library_of, why_not_loaded
-
-Setting = Value | Sequence[float]
-
 
 _BOOLEANS: Final = {"false": "0", "true": "1"}
 
@@ -60,7 +58,7 @@ def names_in(description: Any) -> tuple[int, str]:
         FmuError: it is another FMU.
     """
     names = {v.name for v in description.modelVariables}
-    load = row("grf")
+    load = variable_named("grf")
     for naming in ("structured", "flat"):
         n_legs = 0
         while load.scalar_name(n_legs, naming) in names:
@@ -79,12 +77,12 @@ def members_by_name(n_legs: int, naming: str) -> dict[str, list[Scalar]]:
 
 
 def entries_of(
-    name: str, value: Setting, members: Mapping[str, list[Scalar]]
+    name: str, value: SettingLike, members: Mapping[str, list[Scalar]]
 ) -> list[tuple[Scalar, Value]]:
     """The scalars of a parameter, each with its value.
 
     Args:
-        name: row name of the table.
+        name: name of a variable.
         value: of all of them, or one for each.
         members: the scalars of every row.
 
@@ -119,7 +117,7 @@ def own_starts(path: Path | str) -> tuple[int, dict[str, settings.Setting]]:
     """Number of legs of a controller FMU, and its own start values.
 
     Returns:
-        Those parameters, by row name, that do not start at the default of the table in it.
+        Those parameters, by name, that do not start at the default of the table in it.
 
     Raises:
         FmuError: no FMU, not this controller, or a start value that a parameter cannot have.
@@ -161,7 +159,7 @@ class FmuController(contextlib.ExitStack):
 
     Args:
         path: the FMU file.
-        parameters: values by row name of the table; sequences for rows with several entries.
+        parameters: values by name; sequences for rows with several entries.
         start_time: time of the first tick [s].
 
     Raises:
@@ -172,7 +170,7 @@ class FmuController(contextlib.ExitStack):
     def __init__(
         self,
         path: Path | str,
-        parameters: Mapping[str, Setting] | None = None,
+        parameters: Mapping[str, SettingLike] | None = None,
         start_time: float = 0.0,
     ) -> None:
         super().__init__()
@@ -223,7 +221,7 @@ class FmuController(contextlib.ExitStack):
     def _why(self, error: Exception) -> str:
         return self.messages[-1] if self.messages else str(error)
 
-    def _initialise(self, parameters: Mapping[str, Setting], start_time: float) -> None:
+    def _initialise(self, parameters: Mapping[str, SettingLike], start_time: float) -> None:
         try:
             self._fmu.setupExperiment(startTime=start_time)
             self._fmu.enterInitializationMode()
@@ -233,7 +231,7 @@ class FmuController(contextlib.ExitStack):
         except FMICallException as error:
             raise FmuError(self._why(error)) from error
 
-    def _write(self, name: str, value: Setting) -> None:
+    def _write(self, name: str, value: SettingLike) -> None:
         entries = entries_of(name, value, members_by_name(self.n_legs, self.naming))
         put, convert = {
             Type.real: (self._fmu.setReal, float),
@@ -242,7 +240,7 @@ class FmuController(contextlib.ExitStack):
         put([m.value_reference for m, _ in entries], [convert(v) for _, v in entries])
 
     def parameters(self) -> dict[str, settings.Setting]:
-        """The parameters as the FMU has them now, by row name."""
+        """The parameters as the FMU has them now, by name."""
         found: dict[str, settings.Setting] = {}
         for members in members_by_name(self.n_legs, self.naming).values():
             variable = members[0].variable
@@ -272,10 +270,11 @@ class FmuController(contextlib.ExitStack):
         )
         reals = self._read[0]
         self.phi, self.theta_hip, self.theta_knee = (
-            reals.view[reals.places[row(name)]] for name in ("phi", "theta_hip", "theta_knee")
+            reals.view[reals.places[variable_named(name)]]
+            for name in ("phi", "theta_hip", "theta_knee")
         )
 
-    def set(self, name: str, value: Setting) -> None:
+    def set(self, name: str, value: SettingLike) -> None:
         """Set a tunable parameter between two steps.
 
         Raises:
@@ -316,23 +315,23 @@ class FmuController(contextlib.ExitStack):
 
     def trace(self) -> Trace:
         """A recorder of all inputs, outputs and local variables, a row per tick."""
-        return Trace([block.view for block in self._written + self._read], self._channels)
+        return Trace([block.view for block in self._written + self._read], self._signals)
 
     def sample(self) -> dict[str, Array]:
-        """All inputs, outputs and local variables now, by row name; shape () or (entries,)."""
+        """All inputs, outputs and local variables now, by name; shape () or (entries,)."""
         trace = self.trace()
         trace.take()
-        return {name: values[0] for name, values in trace.channels().items()}
+        return {name: values[0] for name, values in trace.signals().items()}
 
-    def _channels(self, rows: Array) -> dict[str, Array]:
-        channels, start = {}, 0
+    def _signals(self, rows: Array) -> dict[str, Array]:
+        signals, start = {}, 0
         for block in self._written + self._read:
             own = rows[:, start : start + len(block.view)]
             for v, place in block.places.items():
                 values = own[:, place].copy()
-                channels[v.name] = values[:, 0] if v.shape is Shape.scalar else values
+                signals[v.name] = values[:, 0] if v.shape is Shape.scalar else values
             start += len(block.view)
-        return channels
+        return signals
 
 
 def check_fmu(path: Path | str) -> Any:

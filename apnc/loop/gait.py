@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from apnc.loop.last_row import last_row
 from apnc_core.in_python import in_python
-from apnc_core.variables import row
+from apnc_core.variables import variable_named
 
 FORMAT: Final = "apnc-gait"
 VERSION: Final = 1
@@ -47,7 +47,7 @@ class Gait:
         for leg in self.legs:
             if not isinstance(leg, str):
                 raise GaitError(f"leg {leg!r} is not a name")
-        limits = row("phi_stored")
+        limits = variable_named("phi_stored")
         assert limits.min is not None and limits.max is not None
         if len(self.phi) != len(self.legs) - 1:
             raise GaitError(f"{len(self.phi)} relations do not fit {len(self.legs)} legs")

@@ -12,10 +12,11 @@ from apnc.loop.experiment import Experiment
 from apnc_core import __version__
 from apnc_plant.fmu_config import HEADER, robot_config
 from apnc_plant.robot import RobotDescription, load_robot
-from apnc_plant.row_numbers import ROW_NUMBERS
+from apnc_plant.variable_numbers import VARIABLE_NUMBERS
 from apnc_plant.variables import ENUMERATIONS, TABLE, starts_of
 from build_fmu import sources
-from build_fmu.build import Progress, built, cached_path, write_atomically
+from build_fmu.build import built, cached_path, write_atomically
+from build_fmu.compile import Progress
 from build_fmu.documentation import documentation, page_of
 from build_fmu.model import Model, RealType
 from build_fmu.platforms import PLATFORMS, check_platforms
@@ -53,7 +54,7 @@ class PlantBuild:
     Args:
         robot: name of a shipped robot, or its file; its numbers travel in the FMU.
         naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``), for FMI 2.0; in FMI 3.0
-            the entries of a row are an array and both are alike.
+            the entries of a variable are an array and both are alike.
         fmi: version of the standard, 2 or 3.
         platforms: names of the binaries to include; empty for sources only.
         enumerations: ``enumeration``, or ``integer`` for importers that drop enumerations.
@@ -85,7 +86,7 @@ class PlantBuild:
             identifier=plant_model(self.robot),
             about=f"Robot '{robot.name}' on the ground",
             table=TABLE,
-            numbers=ROW_NUMBERS,
+            numbers=VARIABLE_NUMBERS,
             legs=tuple(leg.name for leg in robot.legs),
             starts=starts_of(robot),
             enumerations=ENUMERATIONS,

@@ -11,7 +11,7 @@ from apnc.loop.experiment import Experiment
 from apnc.system.plant_fmu import MODEL_SUFFIX, PlantBuild, plant_model
 from apnc_core.schema import Causality, Scalar, Type, Value
 from apnc_core.settings import Setting, checked_in
-from apnc_core.variables import row, rows, scalars
+from apnc_core.variables import scalars, variable_named, variables_of
 from apnc_plant.conditions import CONDITIONS, Conditions
 from apnc_plant.ground import Obstacles
 from apnc_plant.variables import COMMANDS, FELL, LOAD, TABLE, Condition
@@ -192,8 +192,10 @@ def structure_of(
     """
     _refuse(experiment)
     model, n_legs = plant_build(experiment, naming).model(), len(experiment.description.legs)
-    loads = [row(LOAD).scalar_name(leg, naming) for leg in range(n_legs)]
-    commands = [row(c).scalar_name(leg, naming) for c in COMMANDS for leg in range(n_legs)]
+    loads = [variable_named(LOAD).scalar_name(leg, naming) for leg in range(n_legs)]
+    commands = [
+        variable_named(c).scalar_name(leg, naming) for c in COMMANDS for leg in range(n_legs)
+    ]
     return Structure(
         name=model.identifier.removesuffix(MODEL_SUFFIX),
         legs=model.legs,
@@ -275,7 +277,7 @@ def _controller_starts(experiment: Experiment, naming: str) -> list[Start]:
     given = {"MI": experiment.mi, "turn": experiment.turn}
     values = given | experiment.parameters()
     starts = []
-    for v in (*map(row, _INPUTS_SET), *rows(Causality.parameter)):
+    for v in (*map(variable_named, _INPUTS_SET), *variables_of(Causality.parameter)):
         value = values[v.name]
         if v.type is Type.boolean and value == v.start:
             continue

@@ -44,7 +44,7 @@ typedef struct {
     apnc_real window[APNC_WINDOW_MAX]
                     [APNC_RELATIONS]; /* [rad] relative phases at n - 1 ... n - N */
     apnc_real sum[APNC_RELATIONS];    /* [rad] over the window */
-    int32_t oldest;                   /* row of the window to be replaced next */
+    int32_t oldest;                   /* place in the window that is replaced next */
     int32_t armed;                    /* d has exceeded sigma */
     int32_t calm;                     /* [ticks] with d at or below sigma since */
 } apnc_estimation;

@@ -18,7 +18,7 @@
 
 #define APNC_NAME(name) APNC_JOIN(APNC_PREFIX, name)
 
-#define apnc_rows     APNC_NAME(rows)
+#define apnc_variables     APNC_NAME(variables)
 #define apnc_defaults APNC_NAME(defaults)
 #define apnc_init     APNC_NAME(init)
 #define apnc_reset    APNC_NAME(reset)

@@ -1,4 +1,4 @@
-/* The rows of the table of variables, for access by value reference.
+/* All variables, for access by value reference.
  *
  * Generated from apnc_core/variables.py by `python -m build_fmu.generate`; do not edit.
  */
@@ -13,7 +13,7 @@
 #endif
 #define AT(group, field) offsetof(apnc_data, group.field)
 
-const apnc_row apnc_rows[APNC_ROWS] = {
+const apnc_variable apnc_variables[APNC_VARIABLES] = {
     {"grf", LEG("grf"), AT(inputs, grf), APNC_LEGS, APNC_REAL, APNC_INPUT, 0.0, 1.0, -1.0},
     {"MI", "MI", "", AT(inputs, MI), 1, APNC_REAL, APNC_INPUT, 0.08, 0.0, 1.0},
     {"turn", "turn", "", AT(inputs, turn), 1, APNC_REAL, APNC_INPUT, 0.0, -1.0, 1.0},

@@ -1,11 +1,11 @@
-/* Variables of the controller: structs, one field per row of the table.
+/* Variables of the controller: structs, one field per variable of the table.
  *
  * Generated from apnc_core/variables.py by `python -m build_fmu.generate`; do not edit.
  */
 #ifndef APNC_VARIABLES_H
 #define APNC_VARIABLES_H
 
-#include "apnc_row.h"
+#include "apnc_variable.h"
 
 #define APNC_RELATIONS (APNC_LEGS - 1) /* phase relations phi_1k, k = 2 ... APNC_LEGS */
 #define APNC_WINDOW_MAX 256 /* largest N of Eq. 14 */
@@ -13,7 +13,7 @@
 #define APNC_KERNEL_WIDTH 0.04 /* distance squared at which they fall to 1/e */
 #define APNC_OVERLAP 1.15 /* mean of their sum over the angle of the cycle */
 #define APNC_CENTRES {{0.85, 0.0}, {0.87, 0.28}, {0.88, 0.64}, {0.57, 0.79}, {0.27, 0.83}, {0.0, 0.85}, {-0.28, 0.87}, {-0.64, 0.88}, {-0.79, 0.57}, {-0.83, 0.27}, {-0.85, 0.0}, {-0.87, -0.28}, {-0.88, -0.64}, {-0.57, -0.79}, {-0.27, -0.83}, {0.0, -0.85}, {0.28, -0.87}, {0.64, -0.88}, {0.79, -0.57}, {0.83, -0.27}}
-#define APNC_ROWS 59
+#define APNC_VARIABLES 59
 
 #define APNC_MI_START 0.08
 #define APNC_MI_MIN (0.0)
@@ -131,7 +131,7 @@ typedef struct {
 #ifdef __cplusplus
 extern "C" {
 #endif
-extern const apnc_row apnc_rows[APNC_ROWS];
+extern const apnc_variable apnc_variables[APNC_VARIABLES];
 #ifdef __cplusplus
 }
 #endif

@@ -19,14 +19,14 @@
 
 void apnc_defaults(apnc_data *data) {
     memset(data, 0, sizeof *data);
-    for (int i = 0; i < APNC_ROWS; i++) {
-        const apnc_row *row = &apnc_rows[i];
-        char *at = (char *)data + row->offset;
-        for (int k = 0; k < row->count; k++) {
-            if (row->type == APNC_REAL)
-                ((apnc_real *)at)[k] = row->start;
+    for (int i = 0; i < APNC_VARIABLES; i++) {
+        const apnc_variable *variable = &apnc_variables[i];
+        char *at = (char *)data + variable->offset;
+        for (int k = 0; k < variable->count; k++) {
+            if (variable->type == APNC_REAL)
+                ((apnc_real *)at)[k] = variable->start;
             else
-                ((int32_t *)at)[k] = (int32_t)row->start;
+                ((int32_t *)at)[k] = (int32_t)variable->start;
         }
     }
 #ifdef APNC_DEFAULTS

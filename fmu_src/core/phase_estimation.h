@@ -14,13 +14,13 @@ static inline apnc_real apnc_distance(apnc_estimation *restrict s, int N,
                                       const apnc_real *restrict angle) {
     const apnc_real share = (apnc_real)1 / N;
     apnc_real square[APNC_RELATIONS];
-    apnc_real *row = s->window[s->oldest];
+    apnc_real *oldest = s->window[s->oldest];
     for (int r = 0; r < APNC_RELATIONS; r++) {
         const apnc_real now = s->unwrapped[r] + apnc_wrap(angle[r] - s->angle_before[r], -APNC_PI);
         const apnc_real deviation = now - s->sum[r] * share;
         square[r] = deviation * deviation;
-        s->sum[r] += now - row[r];
-        s->unwrapped[r] = row[r] = now;
+        s->sum[r] += now - oldest[r];
+        s->unwrapped[r] = oldest[r] = now;
     }
     memcpy(s->angle_before, angle, sizeof s->angle_before);
     s->oldest = s->oldest + 1 < N ? s->oldest + 1 : 0;

@@ -17,7 +17,7 @@ typedef struct {
     int32_t limited_turn;
 } controller_state;
 
-const int apnc_row_count = APNC_ROWS;
+const int apnc_variable_count = APNC_VARIABLES;
 
 size_t apnc_values_size(void) { return sizeof(apnc_data); }
 
@@ -37,9 +37,10 @@ apnc_status apnc_model_refresh(apnc_instance *instance) {
     return APNC_OK;
 }
 
-apnc_status apnc_model_accepts(apnc_instance *instance, const apnc_row *row, double value) {
+apnc_status apnc_model_accepts(apnc_instance *instance, const apnc_variable *variable,
+                               double value) {
     (void)instance;
-    (void)row;
+    (void)variable;
     (void)value;
     return APNC_OK;
 }
@@ -70,10 +71,11 @@ static apnc_status note_faults(apnc_instance *instance, const int32_t *before) {
     const apnc_data *data = instance->values;
     for (int leg = 0; leg < APNC_LEGS; leg++) {
         if (!data->outputs.fault[leg] || before[leg]) continue;
-        status = apnc_report(
-            instance, APNC_WARNING, APNC_LOG_WARNING,
-            "%s = %g N at %g s is not finite, negative or too large: it counts as zero",
-            apnc_scalar_name(&apnc_rows[0], leg).text, data->inputs.grf[leg], instance->run->time);
+        status =
+            apnc_report(instance, APNC_WARNING, APNC_LOG_WARNING,
+                        "%s = %g N at %g s is not finite, negative or too large: it counts as zero",
+                        apnc_scalar_name(&apnc_variables[0], leg).text, data->inputs.grf[leg],
+                        instance->run->time);
     }
     return status;
 }

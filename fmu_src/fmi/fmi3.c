@@ -1,6 +1,6 @@
 /* FMI 3.0 co-simulation interface: life cycle, arrays and types of the standard.
  *
- * A row of the table is one variable: its value reference is that of its first entry.
+ * A variable with several entries is an array; its value reference is that of its first entry.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -128,15 +128,16 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
 
 /* Number of values of a variable of that type; 0 with a message if there is none. */
 static size_t entries(fmu *f, const char *function, fmi3ValueReference vr, apnc_type type) {
-    const uint32_t row = vr / APNC_VR_STRIDE;
+    const uint32_t number = vr / APNC_VR_STRIDE;
     if (vr == APNC_VR_TIME && type == APNC_REAL) return 1;
-    if (vr % APNC_VR_STRIDE || row >= (uint32_t)apnc_row_count || apnc_rows[row].type != type) {
+    if (vr % APNC_VR_STRIDE || number >= (uint32_t)apnc_variable_count ||
+        apnc_variables[number].type != type) {
         apnc_report(&f->base, APNC_ERROR, APNC_LOG_ERROR,
                     "%s: no variable of this type has value reference %lu", function,
                     (unsigned long)vr);
         return 0;
     }
-    return (size_t)apnc_rows[row].count;
+    return (size_t)apnc_variables[number].count;
 }
 
 static fmi3Status check_access(fmu *f, int phases, const char *function,

@@ -103,12 +103,13 @@ apnc_status apnc_set_times(apnc_instance *instance, const char *function, double
     return APNC_OK;
 }
 
-apnc_name apnc_scalar_name(const apnc_row *row, int element) {
+apnc_name apnc_scalar_name(const apnc_variable *variable, int element) {
     apnc_name name;
-    if (row->count == 1 && row->after[0] == '\0')
-        snprintf(name.text, sizeof name.text, "%s", row->before);
+    if (variable->count == 1 && variable->after[0] == '\0')
+        snprintf(name.text, sizeof name.text, "%s", variable->before);
     else
-        snprintf(name.text, sizeof name.text, "%s%d%s", row->before, element + 1, row->after);
+        snprintf(name.text, sizeof name.text, "%s%d%s", variable->before, element + 1,
+                 variable->after);
     return name;
 }
 
@@ -117,27 +118,29 @@ static const char *type_name(apnc_type type) {
     return names[type];
 }
 
-static size_t size_of(const apnc_row *row) {
-    return row->type == APNC_REAL ? sizeof(double) : sizeof(int32_t);
+static size_t size_of(const apnc_variable *variable) {
+    return variable->type == APNC_REAL ? sizeof(double) : sizeof(int32_t);
 }
 
-/* Row and place of a value reference; NULL with a message if there is none of that type. */
-static const apnc_row *find(apnc_instance *instance, uint32_t value_reference, apnc_type wanted,
-                            void **at, int *element) {
+/* Variable and place of a value reference; NULL with a message if there is none of that type. */
+static const apnc_variable *find(apnc_instance *instance, uint32_t value_reference,
+                                 apnc_type wanted, void **at, int *element) {
     const uint32_t number = value_reference / APNC_VR_STRIDE;
     const uint32_t entry = value_reference % APNC_VR_STRIDE;
-    if (number >= (uint32_t)apnc_row_count || entry >= (uint32_t)apnc_rows[number].count) {
+    if (number >= (uint32_t)apnc_variable_count ||
+        entry >= (uint32_t)apnc_variables[number].count) {
         apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "no variable has value reference %lu",
                     (unsigned long)value_reference);
         return NULL;
     }
-    const apnc_row *row = &apnc_rows[number];
-    *at = (char *)instance->values + row->offset + entry * size_of(row);
+    const apnc_variable *variable = &apnc_variables[number];
+    *at = (char *)instance->values + variable->offset + entry * size_of(variable);
     *element = (int)entry;
-    if (row->type == wanted || (row->type == APNC_ENUMERATION && wanted == APNC_INTEGER))
-        return row;
+    if (variable->type == wanted || (variable->type == APNC_ENUMERATION && wanted == APNC_INTEGER))
+        return variable;
     apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "%s is of type %s, not %s",
-                apnc_scalar_name(row, *element).text, type_name(row->type), type_name(wanted));
+                apnc_scalar_name(variable, *element).text, type_name(variable->type),
+                type_name(wanted));
     return NULL;
 }
 
@@ -152,34 +155,35 @@ apnc_status apnc_get(apnc_instance *instance, uint32_t value_reference, apnc_typ
                      void *value) {
     void *at;
     int element;
-    const apnc_row *row = find(instance, value_reference, wanted, &at, &element);
-    if (!row) return APNC_ERROR;
-    if (row->role == APNC_OUTPUT || row->role == APNC_LOCAL) {
+    const apnc_variable *variable = find(instance, value_reference, wanted, &at, &element);
+    if (!variable) return APNC_ERROR;
+    if (variable->role == APNC_OUTPUT || variable->role == APNC_LOCAL) {
         if (instance->run->phase == APNC_INSTANTIATED)
             return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                                "%s is an output: it has no value before initialization",
-                               apnc_scalar_name(row, element).text);
+                               apnc_scalar_name(variable, element).text);
         if (refresh(instance) != APNC_OK) return APNC_ERROR;
     }
-    memcpy(value, at, size_of(row));
+    memcpy(value, at, size_of(variable));
     return APNC_OK;
 }
 
-static int in_range(const apnc_row *row, double value) {
-    return row->min > row->max ? fabs(value) <= DBL_MAX : value >= row->min && value <= row->max;
+static int in_range(const apnc_variable *variable, double value) {
+    return variable->min > variable->max ? fabs(value) <= DBL_MAX
+                                         : value >= variable->min && value <= variable->max;
 }
 
-static apnc_status report_range(apnc_instance *instance, const apnc_row *row, int element,
+static apnc_status report_range(apnc_instance *instance, const apnc_variable *variable, int element,
                                 double value) {
-    return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                       "%s = %g is out of range: %g ... %g is allowed",
-                       apnc_scalar_name(row, element).text, value, row->min, row->max);
+    return apnc_report(
+        instance, APNC_ERROR, APNC_LOG_ERROR, "%s = %g is out of range: %g ... %g is allowed",
+        apnc_scalar_name(variable, element).text, value, variable->min, variable->max);
 }
 
-static double number_at(const apnc_row *row, const void *at) {
+static double number_at(const apnc_variable *variable, const void *at) {
     double number;
     int32_t integer;
-    if (row->type == APNC_REAL) {
+    if (variable->type == APNC_REAL) {
         memcpy(&number, at, sizeof number);
         return number;
     }
@@ -188,9 +192,10 @@ static double number_at(const apnc_row *row, const void *at) {
 }
 
 /* Whether a parameter may have a value; logs if not. */
-static apnc_status may_be(apnc_instance *instance, const apnc_row *row, int element, double value) {
-    if (!in_range(row, value)) return report_range(instance, row, element, value);
-    return apnc_model_accepts(instance, row, value);
+static apnc_status may_be(apnc_instance *instance, const apnc_variable *variable, int element,
+                          double value) {
+    if (!in_range(variable, value)) return report_range(instance, variable, element, value);
+    return apnc_model_accepts(instance, variable, value);
 }
 
 apnc_status apnc_set(apnc_instance *instance, uint32_t value_reference, apnc_type wanted,
@@ -198,52 +203,54 @@ apnc_status apnc_set(apnc_instance *instance, uint32_t value_reference, apnc_typ
     void *at;
     int element;
     const int stepping = instance->run->phase == APNC_STEPPING;
-    const apnc_row *row = find(instance, value_reference, wanted, &at, &element);
-    if (!row) return APNC_ERROR;
-    if (row->role == APNC_OUTPUT || row->role == APNC_LOCAL)
+    const apnc_variable *variable = find(instance, value_reference, wanted, &at, &element);
+    if (!variable) return APNC_ERROR;
+    if (variable->role == APNC_OUTPUT || variable->role == APNC_LOCAL)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "%s is an output: it can't be set",
-                           apnc_scalar_name(row, element).text);
-    if (stepping && row->role == APNC_FIXED)
+                           apnc_scalar_name(variable, element).text);
+    if (stepping && variable->role == APNC_FIXED)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                            "%s is fixed: it can only be set before the first step",
-                           apnc_scalar_name(row, element).text);
-    if (stepping && row->role == APNC_TUNABLE) {
-        if (may_be(instance, row, element, number_at(row, value)) != APNC_OK) return APNC_ERROR;
+                           apnc_scalar_name(variable, element).text);
+    if (stepping && variable->role == APNC_TUNABLE) {
+        if (may_be(instance, variable, element, number_at(variable, value)) != APNC_OK)
+            return APNC_ERROR;
         instance->run->tuned = 1;
     }
-    if (row->type == APNC_REAL) {
+    if (variable->type == APNC_REAL) {
         memcpy(at, value, sizeof(double));
     } else {
-        int32_t integer = (int32_t)number_at(row, value);
-        if (row->type == APNC_BOOLEAN) integer = integer != 0;
+        int32_t integer = (int32_t)number_at(variable, value);
+        if (variable->type == APNC_BOOLEAN) integer = integer != 0;
         memcpy(at, &integer, sizeof integer);
     }
     if (!stepping) instance->run->outdated = 1;
     return APNC_OK;
 }
 
-/* Value of an entry of a row. */
-static double value_of(const void *values, const apnc_row *row, int element) {
-    return number_at(row, (const char *)values + row->offset + (size_t)element * size_of(row));
+/* Value of an entry of a variable. */
+static double value_of(const void *values, const apnc_variable *variable, int element) {
+    return number_at(variable,
+                     (const char *)values + variable->offset + (size_t)element * size_of(variable));
 }
 
-static int is_parameter(const apnc_row *row) {
-    return row->role == APNC_FIXED || row->role == APNC_TUNABLE;
+static int is_parameter(const apnc_variable *variable) {
+    return variable->role == APNC_FIXED || variable->role == APNC_TUNABLE;
 }
 
 int apnc_parameters_in_range(const void *values) {
-    for (int i = 0; i < apnc_row_count; i++)
-        for (int k = 0; is_parameter(&apnc_rows[i]) && k < apnc_rows[i].count; k++)
-            if (!in_range(&apnc_rows[i], value_of(values, &apnc_rows[i], k))) return 0;
+    for (int i = 0; i < apnc_variable_count; i++)
+        for (int k = 0; is_parameter(&apnc_variables[i]) && k < apnc_variables[i].count; k++)
+            if (!in_range(&apnc_variables[i], value_of(values, &apnc_variables[i], k))) return 0;
     return 1;
 }
 
 apnc_status apnc_report_parameters(apnc_instance *instance) {
     apnc_status status = APNC_OK;
-    for (int i = 0; i < apnc_row_count; i++) {
-        const apnc_row *row = &apnc_rows[i];
-        for (int k = 0; is_parameter(row) && k < row->count; k++)
-            if (may_be(instance, row, k, value_of(instance->values, row, k)) != APNC_OK)
+    for (int i = 0; i < apnc_variable_count; i++) {
+        const apnc_variable *variable = &apnc_variables[i];
+        for (int k = 0; is_parameter(variable) && k < variable->count; k++)
+            if (may_be(instance, variable, k, value_of(instance->values, variable, k)) != APNC_OK)
                 status = APNC_ERROR;
     }
     return status;

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "apnc_row.h"
+#include "apnc_variable.h"
 
 #ifdef APNC_SINGLE
 #error "FMI variables are of type double"
@@ -77,10 +77,10 @@ typedef struct {
     int32_t unused;
 } apnc_run;
 
-/* A saved state is one block of plain data without pointers: the values of all rows, the run, the
- * model's state, each at a multiple of 64 bytes. */
+/* A saved state is one block of plain data without pointers: the values of all variables, the run,
+ * the model's state, each at a multiple of 64 bytes. */
 typedef struct apnc_instance {
-    void *values;  /* what the rows reach; begin of the block */
+    void *values;  /* of all variables; begin of the block */
     apnc_run *run; /* in the block */
     void *state;   /* of the model, in the block */
     void *own;     /* what the model has allocated beside the block; NULL at first */
@@ -129,10 +129,10 @@ typedef struct {
     char text[64];
 } apnc_name;
 
-apnc_name apnc_scalar_name(const apnc_row *row, int element);
+apnc_name apnc_scalar_name(const apnc_variable *variable, int element);
 
 /* Read or write one value; wanted and its C type must be those of the variable. Before
- * initialization only rows with a start value can be read. */
+ * initialization only variables with a start value can be read. */
 apnc_status apnc_get(apnc_instance *instance, uint32_t value_reference, apnc_type wanted,
                      void *value);
 apnc_status apnc_set(apnc_instance *instance, uint32_t value_reference, apnc_type wanted,

@@ -5,8 +5,8 @@
 
 #include "instance.h"
 
-#define apnc_rows           APNC_NAME(rows)
-#define apnc_row_count      APNC_NAME(row_count)
+#define apnc_variables      APNC_NAME(variables)
+#define apnc_variable_count APNC_NAME(variable_count)
 #define apnc_values_size    APNC_NAME(values_size)
 #define apnc_state_size     APNC_NAME(state_size)
 #define apnc_model_defaults APNC_NAME(model_defaults)
@@ -21,15 +21,15 @@
 #define apnc_model_leave    APNC_NAME(model_leave)
 
 /* Table of variables. */
-extern const apnc_row apnc_rows[];
-extern const int apnc_row_count;
+extern const apnc_variable apnc_variables[];
+extern const int apnc_variable_count;
 
-/* Bytes of the values that the rows reach, and of everything else that a saved state needs: plain
+/* Bytes of the values of all variables, and of everything else that a saved state needs: plain
  * data of a size that the build fixes. The state begins as zeros. */
 size_t apnc_values_size(void);
 size_t apnc_state_size(void);
 
-/* Every row at its start value; outputs 0. */
+/* Every variable at its start value; outputs 0. */
 void apnc_model_defaults(void *values);
 
 /* Length of a tick [s], by which times are compared. */
@@ -40,7 +40,8 @@ double apnc_model_tick(const apnc_instance *instance);
 apnc_status apnc_model_refresh(apnc_instance *instance);
 
 /* Whether a parameter may have a value that lies in its range; logs if not. */
-apnc_status apnc_model_accepts(apnc_instance *instance, const apnc_row *row, double value);
+apnc_status apnc_model_accepts(apnc_instance *instance, const apnc_variable *variable,
+                               double value);
 
 /* Start at run->start_time; the parameters are in their ranges, the outputs up to date. */
 apnc_status apnc_model_start(apnc_instance *instance);

@@ -43,11 +43,11 @@ typedef struct {
     int32_t seed;
 } plant_site;
 
-const int apnc_row_count = PLANT_ROWS;
+const int apnc_variable_count = PLANT_VARIABLES;
 
 _Static_assert(sizeof(plant_run) <= 64, "the plant begins 64 bytes into the state");
 _Static_assert(offsetof(plant_outputs, grf) == (9 + 18 * APNC_LEGS) * sizeof(double),
-               "the rows of outputs are in the order of plant_sample");
+               "the outputs are in the order of plant_sample");
 
 static void *plant_in(void *state) { return (char *)state + 64; }
 
@@ -58,14 +58,14 @@ size_t apnc_state_size(void) {
 }
 
 void apnc_model_defaults(void *values) {
-    for (int i = 0; i < apnc_row_count; i++) {
-        const apnc_row *row = &apnc_rows[i];
-        char *at = (char *)values + row->offset;
-        for (int k = 0; k < row->count; k++) {
-            if (row->type == APNC_REAL)
-                ((double *)(void *)at)[k] = row->start;
+    for (int i = 0; i < apnc_variable_count; i++) {
+        const apnc_variable *variable = &apnc_variables[i];
+        char *at = (char *)values + variable->offset;
+        for (int k = 0; k < variable->count; k++) {
+            if (variable->type == APNC_REAL)
+                ((double *)(void *)at)[k] = variable->start;
             else
-                ((int32_t *)(void *)at)[k] = (int32_t)row->start;
+                ((int32_t *)(void *)at)[k] = (int32_t)variable->start;
         }
     }
 }
@@ -199,18 +199,18 @@ static apnc_status place(apnc_instance *instance) {
     return APNC_OK;
 }
 
-/* The sample of the plant in the order of the rows: by component, then by leg. */
+/* The sample of the plant in the order of the variables: by component, then by leg. */
 static void show(apnc_instance *instance) {
     plant_values *values = instance->values;
     double sample[9 + 19 * APNC_LEGS], *shown = (double *)(void *)&values->outputs;
     const void *plant = plant_in(instance->state);
     plant_sample(plant, 0, sample);
     memcpy(shown, sample, 9 * sizeof *sample);
-    for (int channel = 0; channel < 6; channel++)
+    for (int signal = 0; signal < 6; signal++)
         for (int leg = 0; leg < APNC_LEGS; leg++)
             for (int i = 0; i < 3; i++)
-                shown[9 + (3 * channel + i) * APNC_LEGS + leg] =
-                    sample[9 + (channel * APNC_LEGS + leg) * 3 + i];
+                shown[9 + (3 * signal + i) * APNC_LEGS + leg] =
+                    sample[9 + (signal * APNC_LEGS + leg) * 3 + i];
     memcpy(values->outputs.grf, sample + 9 + 18 * APNC_LEGS, sizeof values->outputs.grf);
     values->outputs.fell = plant_state_of(plant, 0) == PLANT_FELL;
 }
@@ -222,18 +222,19 @@ apnc_status apnc_model_refresh(apnc_instance *instance) {
     return APNC_OK;
 }
 
-apnc_status apnc_model_accepts(apnc_instance *instance, const apnc_row *row, double value) {
+apnc_status apnc_model_accepts(apnc_instance *instance, const apnc_variable *variable,
+                               double value) {
     const plant_run *run = instance->state;
-    if (row->offset != offsetof(plant_values, parameters.condition)) return APNC_OK;
+    if (variable->offset != offsetof(plant_values, parameters.condition)) return APNC_OK;
     const condition_numbers *c = &conditions[(int)value - 1];
     if (c->missing)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                           "%s = %g is of leg %s, which this robot has not", row->name, value,
+                           "%s = %g is of leg %s, which this robot has not", variable->name, value,
                            c->missing);
     if (instance->run->phase == APNC_STEPPING && c->payload != run->payload)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                            "%s = %g has a payload of %g kg, but the robot started with %g kg",
-                           row->name, value, c->payload, run->payload);
+                           variable->name, value, c->payload, run->payload);
     return APNC_OK;
 }
 
@@ -243,12 +244,12 @@ apnc_status apnc_model_start(apnc_instance *instance) {
                        instance->run->start_time, APNC_LEGS, (long)p->seed);
 }
 
-static apnc_status refuse_commands(apnc_instance *instance, int row, const double *commands) {
+static apnc_status refuse_commands(apnc_instance *instance, int number, const double *commands) {
     for (int leg = 0; leg < APNC_LEGS; leg++)
         if (!isfinite(commands[leg]))
             return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                                "%s = %g is not a finite angle",
-                               apnc_scalar_name(&apnc_rows[row], leg).text, commands[leg]);
+                               apnc_scalar_name(&apnc_variables[number], leg).text, commands[leg]);
     return APNC_OK;
 }
 

@@ -1,4 +1,4 @@
-/* The rows of the table of variables, for access by value reference; start values of the robot's own
+/* All variables, for access by value reference; start values of the robot's own
  * numbers are those of the build.
  *
  * Generated from apnc_plant/variables.py by `python -m apnc_plant.generate`; do not edit.
@@ -18,7 +18,7 @@
 #endif
 #define AT(group, field) offsetof(plant_values, group.field)
 
-const apnc_row apnc_rows[PLANT_ROWS] = {
+const apnc_variable apnc_variables[PLANT_VARIABLES] = {
     {"theta_hip", LEG("theta_hip", "theta_hip"), AT(inputs, theta_hip), APNC_LEGS, APNC_REAL, APNC_INPUT, 0.0, 1.0, -1.0},
     {"theta_knee", LEG("theta_knee", "theta_knee"), AT(inputs, theta_knee), APNC_LEGS, APNC_REAL, APNC_INPUT, 0.0, 1.0, -1.0},
     {"seed", ONE("seed", "seed"), AT(parameters, seed), 1, APNC_INTEGER, APNC_FIXED, 0.0, 0.0, 2147483647.0},

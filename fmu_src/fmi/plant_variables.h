@@ -1,13 +1,13 @@
-/* Variables of a robot's FMU: structs, one field per row of the table.
+/* Variables of a robot's FMU: structs, one field per variable of the table.
  *
  * Generated from apnc_plant/variables.py by `python -m apnc_plant.generate`; do not edit.
  */
 #ifndef PLANT_VARIABLES_H
 #define PLANT_VARIABLES_H
 
-#include "apnc_row.h"
+#include "apnc_variable.h"
 
-#define PLANT_ROWS 54
+#define PLANT_VARIABLES 54
 
 typedef enum {
     PLANT_CONDITION_C1 = 1, /* nothing is wrong */

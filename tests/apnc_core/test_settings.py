@@ -8,9 +8,9 @@ from apnc_core.enumerations import KappaRule, Method
 from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import Causality
 from apnc_core.settings import checked, parse
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 
-PARAMETERS = rows(Causality.parameter)
+PARAMETERS = variables_of(Causality.parameter)
 
 
 @pytest.mark.parametrize(
@@ -42,21 +42,23 @@ def test_a_value_comes_back_in_the_type_of_its_row(
 @pytest.mark.parametrize("name", PRESETS)
 def test_every_preset_passes_unchanged(name: str) -> None:
     chosen = preset(name)
-    for row in PARAMETERS:
-        value = getattr(chosen, row.name)
-        assert checked(row.name, value) == value
+    for variable in PARAMETERS:
+        value = getattr(chosen, variable.name)
+        assert checked(variable.name, value) == value
 
 
-@pytest.mark.parametrize("row", [r for r in PARAMETERS if r.max is not None], ids=lambda r: r.name)
-def test_the_ends_of_every_range_are_in_and_what_lies_beyond_is_not(row) -> None:  # type: ignore[no-untyped-def]
-    whole = row.type.value == "Integer"
-    for limit, beyond in ((row.min, -1), (row.max, 1)):
+@pytest.mark.parametrize(
+    "variable", [v for v in PARAMETERS if v.max is not None], ids=lambda v: v.name
+)
+def test_the_ends_of_every_range_are_in_and_what_lies_beyond_is_not(variable) -> None:  # type: ignore[no-untyped-def]
+    whole = variable.type.value == "Integer"
+    for limit, beyond in ((variable.min, -1), (variable.max, 1)):
         inside = int(limit) if whole else limit
         outside = inside + beyond * (1 if whole else max(1e-9, abs(limit) * 1e-9))
-        many = [inside] if row.name == "phi_stored" else inside
-        assert checked(row.name, many) in (inside, (inside,))
-        with pytest.raises(ValueError, match=f"^{row.name} = .*allowed: a "):
-            checked(row.name, [outside] if row.name == "phi_stored" else outside)
+        many = [inside] if variable.name == "phi_stored" else inside
+        assert checked(variable.name, many) in (inside, (inside,))
+        with pytest.raises(ValueError, match=f"^{variable.name} = .*allowed: a "):
+            checked(variable.name, [outside] if variable.name == "phi_stored" else outside)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import pytest
 from apnc_core.interface import Parameters
 from apnc_core.presets import preset
 from apnc_core.schema import Causality, Type
-from apnc_core.variables import TABLE, row, rows, scalars
+from apnc_core.variables import TABLE, scalars, variable_named, variables_of
 from build_fmu import generate
 
 # FMI 2.0.4, section 2.2.9: the part of the grammar of structured names without quoted names
@@ -61,11 +61,13 @@ def test_every_row_is_complete() -> None:
             assert v.min <= v.start <= v.max
             assert v.paper is None or v.min <= v.paper <= v.max
         for name in v.initial_from:
-            assert row(name).causality is Causality.parameter
+            assert variable_named(name).causality is Causality.parameter
 
 
-def test_parameters_are_the_rows_of_the_table() -> None:
-    assert [f.name for f in fields(Parameters)] == [v.name for v in rows(Causality.parameter)]
+def test_parameters_are_those_of_the_table() -> None:
+    assert [f.name for f in fields(Parameters)] == [
+        v.name for v in variables_of(Causality.parameter)
+    ]
 
 
 def test_preset_paper_has_the_printed_constants() -> None:
@@ -83,10 +85,12 @@ def test_unknown_preset_is_named() -> None:
 
 def test_one_run_writes_a_changed_table_everywhere(monkeypatch: pytest.MonkeyPatch) -> None:
     """The single header of the Modelica package holds the table too, and is made from it."""
-    changed = replace(row("phase_filter"), start=0.0421)
+    changed = replace(variable_named("phase_filter"), start=0.0421)
     table = tuple(changed if v.name == "phase_filter" else v for v in TABLE)
     monkeypatch.setattr(generate, "TABLE", table)
-    monkeypatch.setattr(generate, "rows", lambda of: tuple(v for v in table if v.causality is of))
+    monkeypatch.setattr(
+        generate, "variables_of", lambda of: tuple(v for v in table if v.causality is of)
+    )
     files = generate.render()
     for path in ("fmu_src/core/apnc_variables.c", "modelica/Apnc/Resources/Include/apnc_core.h"):
         assert "0.0421" in files[path], path

@@ -6,8 +6,8 @@ import hashlib
 
 import pytest
 
-from apnc_core.variable_numbers import VARIABLE_NUMBERS
 from apnc_core.schema import VR_STRIDE, VR_TIME, Causality, Variable
+from apnc_core.variable_numbers import VARIABLE_NUMBERS
 from apnc_core.variables import TABLE, scalars
 from build_fmu import generate
 

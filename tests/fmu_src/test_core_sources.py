@@ -75,4 +75,6 @@ def test_every_name_of_the_core_carries_the_build(
 ) -> None:
     names = run(tool("nm", "binutils"), "-g", "--defined-only", *objects(tmp_path, *flags))
     defined = re.findall(r" [A-Z] (\w+)", names)
-    assert sorted(defined) == [prefix + n for n in ("defaults", "init", "reset", "rows", "tick")]
+    assert sorted(defined) == [
+        prefix + n for n in ("defaults", "init", "reset", "tick", "variables")
+    ]

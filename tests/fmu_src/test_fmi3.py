@@ -21,9 +21,9 @@ from lxml import etree
 from parity import random_loads
 
 from apnc.loop.fmu_controller import FmuController
-from apnc_core.variable_numbers import VARIABLE_NUMBERS
 from apnc_core.schema import VR_TIME, Causality, Type
-from apnc_core.variables import TABLE, row, scalars
+from apnc_core.variable_numbers import VARIABLE_NUMBERS
+from apnc_core.variables import TABLE, scalars, variable_named
 from build_fmu.build import fmu_bytes, host_fmu
 from build_fmu.options import BuildOptions
 
@@ -130,7 +130,9 @@ def test_start_values_can_be_read_before_initialization() -> None:
         fmu.setFloat64([REFERENCE["xi"]], [0.5])
         assert fmu.getFloat64([REFERENCE["xi"]]) == [0.5]
         start(fmu)
-        assert fmu.getFloat64([REFERENCE["o1"]], nValues=4) == [row("o1_start").start] * 4
+        assert (
+            fmu.getFloat64([REFERENCE["o1"]], nValues=4) == [variable_named("o1_start").start] * 4
+        )
 
 
 @pytest.mark.parametrize(("over", "fine"), [(0.49, True), (0.51, False)])

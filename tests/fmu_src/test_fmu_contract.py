@@ -13,7 +13,7 @@ from slave import TS, FMU2Probe, slave
 
 from apnc_core.interface import Parameters
 from apnc_core.schema import Causality, Type
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 
 START_HIP = 0.25 + Parameters().a1 * Parameters().o1_start
 LOADS = [3.0, 9.0, 5.0, 8.0]
@@ -114,7 +114,11 @@ def test_unusable_load_counts_as_zero_and_is_reported_once(fmu4: Path, bad: floa
 
 @pytest.mark.parametrize(
     "v",
-    [v for v in rows(Causality.parameter) if v.type in (Type.real, Type.integer, Type.enumeration)],
+    [
+        v
+        for v in variables_of(Causality.parameter)
+        if v.type in (Type.real, Type.integer, Type.enumeration)
+    ],
     ids=lambda v: v.name,
 )
 def test_every_range_is_enforced_by_name(fmu4: Path, v: object) -> None:

@@ -13,7 +13,7 @@ from apnc_core.controller import Controller
 from apnc_core.enumerations import ForwardModel, Method, PhaseMeasure
 from apnc_core.interface import Parameters
 from apnc_core.schema import Causality
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 from build_fmu import sources
 from build_fmu.build import fmu_bytes
 from build_fmu.options import BuildOptions, host_platform
@@ -88,7 +88,7 @@ def outputs_of_runs() -> list[np.ndarray]:
 @pytest.mark.thorough
 @pytest.mark.parametrize(
     "name",
-    [v.name for v in rows(Causality.parameter) if v.name != "Ts"],  # acts on time alone
+    [v.name for v in variables_of(Causality.parameter) if v.name != "Ts"],  # acts on time alone
 )
 def test_a_parameter_that_one_side_ignores_would_be_noticed(
     name: str, outputs_of_runs: list[np.ndarray]

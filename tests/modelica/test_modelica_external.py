@@ -18,15 +18,17 @@ from apnc_core.controller import Controller
 from apnc_core.enumerations import Method
 from apnc_core.interface import Inputs, Parameters
 from apnc_core.schema import Causality, Shape, Type, Variable
-from apnc_core.variables import TABLE, rows
+from apnc_core.variables import TABLE, variables_of
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "modelica" / "Apnc"
 INCLUDE = PACKAGE / "Resources" / "Include"
 NATIVE = Path(__file__).parent / "native"
 TICKS = 1000
-RESULTS = tuple(v for v in rows(Causality.output) + rows(Causality.local) if v.name != "tick")
-PARAMETERS = rows(Causality.parameter)
+RESULTS = tuple(
+    v for v in variables_of(Causality.output) + variables_of(Causality.local) if v.name != "tick"
+)
+PARAMETERS = variables_of(Causality.parameter)
 
 
 def c_type(v: Variable) -> str:
@@ -55,7 +57,7 @@ def program(p: Parameters, n_legs: int, n: int, again: bool) -> str:
         for v in PARAMETERS
     ] + [f"{c_type(v)} {v.name}{size(v, n_legs)};" for v in RESULTS]
     new = ", ".join(v.name for v in PARAMETERS)
-    given = ", ".join(v.name for v in rows(Causality.input))
+    given = ", ".join(v.name for v in variables_of(Causality.input))
     refs = ", ".join(("&" if v.shape is Shape.scalar else "") + v.name for v in RESULTS)
     shown = "\n".join(
         f'for (int i = 0; i < {v.count(n_legs)}; i++) printf("%.17g ", '

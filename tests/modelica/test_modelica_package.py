@@ -9,7 +9,7 @@ import pytest
 
 import apnc_core
 from apnc_core.schema import Causality
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 from build_fmu import modelica as generator
 
 parser = pytest.importorskip("pymoca.parser", reason="pymoca is not installed: nothing was parsed")
@@ -67,7 +67,7 @@ def test_every_parameter_acts_in_a_block_written_by_hand() -> None:
     text = "\n".join(re.sub(r'"(?:[^"\\]|\\.)*"', "", p.read_text()) for p in by_hand)
     # handing a parameter on (name=name) is no effect
     text = re.sub(r"\b(\w+)=\1\b", "", text)
-    parameters = [v.name for v in rows(Causality.parameter)]
+    parameters = [v.name for v in variables_of(Causality.parameter)]
     assert [name for name in parameters if not re.search(rf"\b{name}\b", text)] == []
 
 

@@ -16,11 +16,11 @@ from apnc_core.enumerations import CouplingSign, ForwardModel, KappaRule, Method
 from apnc_core.interface import Inputs, Parameters
 from apnc_core.presets import preset
 from apnc_core.schema import Causality, Shape
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 
 TOLERANCE = 1e-9
 TICKS = 1000
-OUTPUTS = rows(Causality.output) + rows(Causality.local)
+OUTPUTS = variables_of(Causality.output) + variables_of(Causality.local)
 
 # sigma and hold are such that the couplings switch on early in the run
 COUPLED = {"kappa_hold": 10, "sigma": 1.0}

@@ -16,7 +16,7 @@ from apnc_core.controller import Controller
 from apnc_core.enumerations import Method
 from apnc_core.interface import Inputs, Outputs, Parameters
 from apnc_core.schema import Causality, Shape, Type
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 
 
 def random_loads(rng: np.random.Generator, ticks: int, n_legs: int, weight: float) -> np.ndarray:
@@ -95,7 +95,7 @@ def settings_of(
 ) -> dict[str, object]:
     """A value for every parameter of the table, from pickers of numbers in a range."""
     picked: dict[str, object] = {}
-    for v in rows(Causality.parameter):
+    for v in variables_of(Causality.parameter):
         low, high = _LIKELY.get(v.name, (v.min, v.max))
         if v.enumeration:
             items = _MORE_OFTEN.get(v.name, list(v.enumeration.items))

@@ -11,6 +11,8 @@ from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
+from apnc.studies.contenders import CONTENDERS, contender
+from apnc.studies.rows import AUTHORS, STRICT, Row, cells_in, is_number, matching, successes, values
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
@@ -25,15 +27,13 @@ from apnc.studies.claims import (
     each_of,
     verdict,
 )
-from apnc.studies.contenders import CONTENDERS, contender
 from apnc.studies.plots import convergence
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import AUTHORS, STRICT, Row, cells_in, is_number, matching, successes, values
 from apnc.studies.states.measure import STOPPED, WALKS
 from apnc.studies.statistics import compare, median, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study
 from apnc.studies.table import markdown, middle
-from apnc_core.variables import row as row_of
+from apnc_core.variables import variable_named as row_of
 
 GAINS: Final[Mapping[str, tuple[float, ...]]] = {
     "tegotae": (0.015, 0.03, 0.06, 0.09, 0.12, 0.15, 0.2, 0.3, 0.45),

@@ -14,13 +14,14 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from apnc import metrics
-from apnc.loop.experiment import Experiment, Setting
+from apnc.loop.experiment import Experiment
 from apnc.loop.many import walk_many
 from apnc.loop.record import Record
 from apnc.studies.search.knobs import Candidate, built_robot, gains
 from apnc.studies.states.measure import STOPPED, judge
 from apnc.studies.states.timeline import Timeline
 from apnc.studies.study import COURSE_MI, WALK_MI
+from apnc_core.settings import SettingLike
 from apnc_core.types import Array
 from apnc_plant.conditions import ALL, Conditions
 from apnc_plant.robot import RobotDescription, load_robot
@@ -182,7 +183,7 @@ def tasks(
     yield Task(walk(COURSE_MI, conditions="C3"), _cost("damage", damage_cost))
     if own:
         gait = np.add(_target(n_legs), INEXACT[: n_legs - 1])
-        stored: dict[str, Setting] = {"stored": True, "phi_stored": tuple(gait.tolist())}
+        stored: dict[str, SettingLike] = {"stored": True, "phi_stored": tuple(gait.tolist())}
         kept: dict[str, Any] = {"robot": robot, "settings": {**settings, **stored}}
         memory = MEMORY.experiment("apnc", next(seeds), **kept)
         yield Task(memory, _cost("memory", memory_cost))

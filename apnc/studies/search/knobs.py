@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 from apnc.studies.robots import changed, constant
 from apnc_core.interface import Parameters
 from apnc_core.schema import Causality, Type
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 from apnc_plant.robot import Leg, RobotDescription, load_robot
 
 
@@ -172,6 +172,6 @@ def _stood(robot: RobotDescription, outer: bool, axis: int, value: float) -> Rob
 
 def gains(candidate: Candidate) -> dict[str, float]:
     """Parameters of the controller of a candidate; counts are rounded."""
-    whole = {v.name for v in rows(Causality.parameter) if v.type is Type.integer}
+    whole = {v.name for v in variables_of(Causality.parameter) if v.type is Type.integer}
     own = {name: value for name, value in candidate.items() if "." not in name}
     return {name: round(value) if name in whole else value for name, value in own.items()}

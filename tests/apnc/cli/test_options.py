@@ -22,7 +22,7 @@ from apnc.cli.walk import experiment_of
 from apnc.loop.provenance import what_was_run
 from apnc_core.enumerations import Method
 from apnc_core.schema import Causality, Shape, Type
-from apnc_core.variables import rows
+from apnc_core.variables import variables_of
 from build_fmu.build import cached_fmu
 from build_fmu.options import BuildOptions, host_platform
 
@@ -51,7 +51,7 @@ def value_of(v: Any) -> st.SearchStrategy[Any]:
     return st.integers(v.min, v.max) if v.type is Type.integer else st.floats(v.min, v.max)
 
 
-PARAMETERS = [v for v in rows(Causality.parameter) if v.name not in ("Ts", "method")]
+PARAMETERS = [v for v in variables_of(Causality.parameter) if v.name not in ("Ts", "method")]
 SETTINGS = st.fixed_dictionaries({}, optional={v.name: value_of(v) for v in PARAMETERS})
 SLOPES = st.floats(-1.5, 1.5)
 GROUNDS = st.one_of(

@@ -64,15 +64,16 @@ static double odd_real(void) {
     return (double)draw(1u << 20) / (double)(1u << (10 + draw(10)));
 }
 
-/* References of whole rows, mostly of one type, and how many values they have together. */
+/* References of whole variables, mostly of one type, and how many values they have together. */
 static size_t pick(fmi3ValueReference *vr, size_t n, apnc_type type) {
     size_t values = 0;
     for (size_t k = 0; k < n; k++) {
-        uint32_t row = draw((uint32_t)apnc_variable_count);
-        while (!one_in(40) && apnc_variables[row].type != type) row = draw((uint32_t)apnc_variable_count);
-        vr[k] = APNC_VR_STRIDE * row + (one_in(40) ? draw(100) : 0);
+        uint32_t number = draw((uint32_t)apnc_variable_count);
+        while (!one_in(40) && apnc_variables[number].type != type)
+            number = draw((uint32_t)apnc_variable_count);
+        vr[k] = APNC_VR_STRIDE * number + (one_in(40) ? draw(100) : 0);
         if (one_in(60)) vr[k] = one_in(2) ? APNC_VR_TIME : draw(UINT32_MAX);
-        values += (size_t)apnc_variables[row].count;
+        values += (size_t)apnc_variables[number].count;
     }
     return one_in(20) ? draw(VALUES) : values;
 }

@@ -216,19 +216,19 @@ static inline apnc_real apnc_angle(apnc_real y, apnc_real x) {
 #ifndef APNC_H
 #define APNC_H
 
-/* Variables of the controller: structs, one field per row of the table.
+/* Variables of the controller: structs, one field per variable of the table.
  *
  * Generated from apnc_core/variables.py by `python -m build_fmu.generate`; do not edit.
  */
 #ifndef APNC_VARIABLES_H
 #define APNC_VARIABLES_H
 
-/* A row of a table of variables, the controller's or the robot's: how to reach, name and check it.
+/* How a variable of the controller or of the robot is reached, named and checked.
  *
  * Generated from apnc_core/schema.py by `python -m build_fmu.generate`; do not edit.
  */
-#ifndef APNC_ROW_H
-#define APNC_ROW_H
+#ifndef APNC_VARIABLE_H
+#define APNC_VARIABLE_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -252,7 +252,7 @@ static inline apnc_real apnc_angle(apnc_real y, apnc_real x) {
 
 #define APNC_NAME(name) APNC_JOIN(APNC_PREFIX, name)
 
-#define apnc_rows     APNC_NAME(rows)
+#define apnc_variables     APNC_NAME(variables)
 #define apnc_defaults APNC_NAME(defaults)
 #define apnc_init     APNC_NAME(init)
 #define apnc_reset    APNC_NAME(reset)
@@ -264,7 +264,7 @@ static inline apnc_real apnc_angle(apnc_real y, apnc_real x) {
 #error "APNC_LEGS must be 2 to 64"
 #endif
 
-#define APNC_VR_STRIDE 100u  /* value reference = stride * row + element */
+#define APNC_VR_STRIDE 100u  /* value reference = stride * number + element */
 #define APNC_VR_TIME   9900u /* of the independent variable in FMI 3.0 */
 
 typedef enum { APNC_REAL, APNC_INTEGER, APNC_BOOLEAN, APNC_ENUMERATION } apnc_type;
@@ -275,14 +275,14 @@ typedef struct {
     const char *name;
     const char *before; /* scalar name = before + index + after; before alone if count is 1 */
     const char *after;
-    size_t offset; /* of the first entry in the values of all rows [bytes] */
+    size_t offset; /* of the first entry in the values of all variables [bytes] */
     int count;
     apnc_type type;
     apnc_role role;
     apnc_real start;
     apnc_real min; /* inclusive; min > max: no range */
     apnc_real max;
-} apnc_row;
+} apnc_variable;
 
 #endif
 
@@ -292,7 +292,7 @@ typedef struct {
 #define APNC_KERNEL_WIDTH 0.04 /* distance squared at which they fall to 1/e */
 #define APNC_OVERLAP 1.15 /* mean of their sum over the angle of the cycle */
 #define APNC_CENTRES {{0.85, 0.0}, {0.87, 0.28}, {0.88, 0.64}, {0.57, 0.79}, {0.27, 0.83}, {0.0, 0.85}, {-0.28, 0.87}, {-0.64, 0.88}, {-0.79, 0.57}, {-0.83, 0.27}, {-0.85, 0.0}, {-0.87, -0.28}, {-0.88, -0.64}, {-0.57, -0.79}, {-0.27, -0.83}, {0.0, -0.85}, {0.28, -0.87}, {0.64, -0.88}, {0.79, -0.57}, {0.83, -0.27}}
-#define APNC_ROWS 59
+#define APNC_VARIABLES 59
 
 #define APNC_MI_START 0.08
 #define APNC_MI_MIN (0.0)
@@ -410,7 +410,7 @@ typedef struct {
 #ifdef __cplusplus
 extern "C" {
 #endif
-static const apnc_row apnc_rows[APNC_ROWS];
+static const apnc_variable apnc_variables[APNC_VARIABLES];
 #ifdef __cplusplus
 }
 #endif
@@ -453,7 +453,7 @@ typedef struct {
     apnc_real window[APNC_WINDOW_MAX]
                     [APNC_RELATIONS]; /* [rad] relative phases at n - 1 ... n - N */
     apnc_real sum[APNC_RELATIONS];    /* [rad] over the window */
-    int32_t oldest;                   /* row of the window to be replaced next */
+    int32_t oldest;                   /* place in the window that is replaced next */
     int32_t armed;                    /* d has exceeded sigma */
     int32_t calm;                     /* [ticks] with d at or below sigma since */
 } apnc_estimation;
@@ -711,13 +711,13 @@ static inline apnc_real apnc_distance(apnc_estimation *restrict s, int N,
                                       const apnc_real *restrict angle) {
     const apnc_real share = (apnc_real)1 / N;
     apnc_real square[APNC_RELATIONS];
-    apnc_real *row = s->window[s->oldest];
+    apnc_real *oldest = s->window[s->oldest];
     for (int r = 0; r < APNC_RELATIONS; r++) {
         const apnc_real now = s->unwrapped[r] + apnc_wrap(angle[r] - s->angle_before[r], -APNC_PI);
         const apnc_real deviation = now - s->sum[r] * share;
         square[r] = deviation * deviation;
-        s->sum[r] += now - row[r];
-        s->unwrapped[r] = row[r] = now;
+        s->sum[r] += now - oldest[r];
+        s->unwrapped[r] = oldest[r] = now;
     }
     memcpy(s->angle_before, angle, sizeof s->angle_before);
     s->oldest = s->oldest + 1 < N ? s->oldest + 1 : 0;
@@ -782,14 +782,14 @@ static inline apnc_real apnc_tegotae_gain(const apnc_parameters *p) { return p->
 
 static void apnc_defaults(apnc_data *data) {
     memset(data, 0, sizeof *data);
-    for (int i = 0; i < APNC_ROWS; i++) {
-        const apnc_row *row = &apnc_rows[i];
-        char *at = (char *)data + row->offset;
-        for (int k = 0; k < row->count; k++) {
-            if (row->type == APNC_REAL)
-                ((apnc_real *)at)[k] = row->start;
+    for (int i = 0; i < APNC_VARIABLES; i++) {
+        const apnc_variable *variable = &apnc_variables[i];
+        char *at = (char *)data + variable->offset;
+        for (int k = 0; k < variable->count; k++) {
+            if (variable->type == APNC_REAL)
+                ((apnc_real *)at)[k] = variable->start;
             else
-                ((int32_t *)at)[k] = (int32_t)row->start;
+                ((int32_t *)at)[k] = (int32_t)variable->start;
         }
     }
 #ifdef APNC_DEFAULTS
@@ -1024,7 +1024,7 @@ static void apnc_tick(const apnc_parameters *p, apnc_state *state, const apnc_in
     memcpy(out->fault, fault, sizeof fault);
     out->tick = state->ticks < INT32_MAX ? (int32_t)state->ticks : INT32_MAX;
 }
-/* The rows of the table of variables, for access by value reference.
+/* All variables, for access by value reference.
  *
  * Generated from apnc_core/variables.py by `python -m build_fmu.generate`; do not edit.
  */
@@ -1038,7 +1038,7 @@ static void apnc_tick(const apnc_parameters *p, apnc_state *state, const apnc_in
 #endif
 #define AT(group, field) offsetof(apnc_data, group.field)
 
-static const apnc_row apnc_rows[APNC_ROWS] = {
+static const apnc_variable apnc_variables[APNC_VARIABLES] = {
     {"grf", LEG("grf"), AT(inputs, grf), APNC_LEGS, APNC_REAL, APNC_INPUT, 0.0, 1.0, -1.0},
     {"MI", "MI", "", AT(inputs, MI), 1, APNC_REAL, APNC_INPUT, 0.08, 0.0, 1.0},
     {"turn", "turn", "", AT(inputs, turn), 1, APNC_REAL, APNC_INPUT, 0.0, -1.0, 1.0},

@@ -22,16 +22,16 @@ typedef struct {
 
 /* Stops the model with one line if a parameter is outside its range: tools need not check it. */
 static void apnc_modelica_check(const apnc_data *data) {
-    for (int i = 0; i < APNC_ROWS; i++) {
-        const apnc_row *row = &apnc_rows[i];
-        if ((row->role != APNC_FIXED && row->role != APNC_TUNABLE) || row->min > row->max) continue;
-        const char *at = (const char *)data + row->offset;
-        for (int j = 0; j < row->count; j++) {
+    for (int i = 0; i < APNC_VARIABLES; i++) {
+        const apnc_variable *variable = &apnc_variables[i];
+        if ((variable->role != APNC_FIXED && variable->role != APNC_TUNABLE) || variable->min > variable->max) continue;
+        const char *at = (const char *)data + variable->offset;
+        for (int j = 0; j < variable->count; j++) {
             const double value =
-                row->type == APNC_REAL ? ((const double *)at)[j] : ((const int32_t *)at)[j];
-            if (!(value >= row->min && value <= row->max))
-                ModelicaFormatError("Apnc: %s = %g is not in %g ... %g", row->name, value, row->min,
-                                    row->max);
+                variable->type == APNC_REAL ? ((const double *)at)[j] : ((const int32_t *)at)[j];
+            if (!(value >= variable->min && value <= variable->max))
+                ModelicaFormatError("Apnc: %s = %g is not in %g ... %g", variable->name, value, variable->min,
+                                    variable->max);
         }
     }
 }

@@ -1,14 +1,14 @@
-"""Numbers of the rows, from which value references follow: fixed for good.
+"""Numbers of the variables. Value references follow from them, so they never change.
 
-Importers keep value references, so no number moves or is used again. A new row gets the next
-number from ``python -m build_fmu.generate``; the number of a row that was removed stays here.
+Importers keep value references, so a number is never moved or used again. A new variable gets the
+next number from ``python -m build_fmu.generate``. The number of a removed variable stays here.
 """
 
 from __future__ import annotations
 
 from typing import Final
 
-ROW_NUMBERS: Final[dict[str, int]] = {
+VARIABLE_NUMBERS: Final[dict[str, int]] = {
     "grf": 0,
     "MI": 1,
     "turn": 2,

@@ -1,9 +1,9 @@
-/* A row of a table of variables, the controller's or the robot's: how to reach, name and check it.
+/* How a variable of the controller or of the robot is reached, named and checked.
  *
  * Generated from apnc_core/schema.py by `python -m build_fmu.generate`; do not edit.
  */
-#ifndef APNC_ROW_H
-#define APNC_ROW_H
+#ifndef APNC_VARIABLE_H
+#define APNC_VARIABLE_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -11,12 +11,12 @@
 #include "apnc_names.h"
 #include "apnc_real.h"
 
-#if APNC_LEGS < 2 || APNC_LEGS > {{ max_legs }}
-#error "APNC_LEGS must be 2 to {{ max_legs }}"
+#if APNC_LEGS < 2 || APNC_LEGS > 64
+#error "APNC_LEGS must be 2 to 64"
 #endif
 
-#define APNC_VR_STRIDE {{ vr_stride }}u  /* value reference = stride * row + element */
-#define APNC_VR_TIME   {{ vr_time }}u /* of the independent variable in FMI 3.0 */
+#define APNC_VR_STRIDE 100u  /* value reference = stride * number + element */
+#define APNC_VR_TIME   9900u /* of the independent variable in FMI 3.0 */
 
 typedef enum { APNC_REAL, APNC_INTEGER, APNC_BOOLEAN, APNC_ENUMERATION } apnc_type;
 
@@ -26,13 +26,13 @@ typedef struct {
     const char *name;
     const char *before; /* scalar name = before + index + after; before alone if count is 1 */
     const char *after;
-    size_t offset; /* of the first entry in the values of all rows [bytes] */
+    size_t offset; /* of the first entry in the values of all variables [bytes] */
     int count;
     apnc_type type;
     apnc_role role;
     apnc_real start;
     apnc_real min; /* inclusive; min > max: no range */
     apnc_real max;
-} apnc_row;
+} apnc_variable;
 
 #endif
