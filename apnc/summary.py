@@ -12,6 +12,7 @@ import numpy as np
 
 from apnc import metrics
 from apnc_core import __version__
+from apnc_plant.signals import PLANT_SIGNALS
 
 if TYPE_CHECKING:
     from apnc.loop.record import Record
@@ -83,7 +84,7 @@ def summarise(record: Record) -> Summary:
     """
     sound = _sound(record)
     weight = record.mass * metrics.GRAVITY
-    touch = metrics.touch_moment(sound.plant["foot_force"][..., 2], weight)
+    touch = metrics.touch_moment(sound.signals["foot_force"][..., 2], weight)
     figures = {
         "method": record.experiment.method,
         "mi": record.experiment.mi,
@@ -102,10 +103,10 @@ def summarise(record: Record) -> Summary:
 
 def _motion(record: Record, begin: int) -> dict[str, Any]:
     """Speed, strides, feet, balance and cost."""
-    time, plant, position = record.time, record.plant, record.plant["position"]
+    time, plant, position = record.time, record.signals, record.signals["position"]
     late, (roll, pitch, yaw) = time >= time[-1:] - LATE_S, plant["rpy"].T
     standing = metrics.stance(plant["foot_force"][..., 2])[begin:]
-    starts = metrics.cycle_starts(record.controller["o1"][begin:], record.controller["o2"][begin:])
+    starts = metrics.cycle_starts(record.signals["o1"][begin:], record.signals["o2"][begin:])
     feet, duty = plant["foot_position"][begin:], metrics.duty_factors(standing, starts)
     distance, path = metrics.forward_distance(position, yaw), metrics.path_length(position)
     speed, turned = metrics.mean_speed(time, path), metrics.turned(yaw)
@@ -142,7 +143,7 @@ def _motion(record: Record, begin: int) -> dict[str, Any]:
 
 def _formation(record: Record, touch: int | None) -> dict[str, Any]:
     """Convergence by both criteria, final phases and the moment of storing."""
-    time, o1, o2 = record.time, record.controller["o1"], record.controller["o2"]
+    time, o1, o2 = record.time, record.signals["o1"], record.signals["o2"]
     target = metrics.default_target(len(record.legs))
     late, broken = time >= time[-1:] - LATE_S, record.end in ("fell", "diverged")
     strict = authors = None
@@ -154,7 +155,7 @@ def _formation(record: Record, touch: int | None) -> dict[str, Any]:
             authors = metrics.convergence_time_authors(time, o1, o2, touch, target)
     final = metrics.final_phases(o1, o2, 1.0 / record.experiment.rate)
     known = target is not None and len(time) > 0
-    stored = time[record.controller["kappa"] > 0.0]
+    stored = time[record.signals["kappa"] > 0.0]
     return {
         "converged": False if broken else strict is not None if known else None,
         "convergence_time_s": strict,
@@ -170,8 +171,8 @@ def _formation(record: Record, touch: int | None) -> dict[str, Any]:
 def _sound(record: Record) -> Record:
     """The record, without samples if it diverged, fell at once or holds a value not finite."""
     fell_at_once = record.end == "fell" and record.ended_at < FELL_AT_ONCE_S
-    channels = [*record.plant.values(), record.controller["o1"], record.controller["o2"]]
-    finite = all(np.isfinite(values).all() for values in channels)
+    needed = ("o1", "o2", *(signal.name for signal in PLANT_SIGNALS))
+    finite = all(np.isfinite(record.signals[name]).all() for name in needed)
     return record if finite and not fell_at_once and record.end != "diverged" else record.until(0)
 
 

@@ -9,14 +9,14 @@ import numpy as np
 
 from apnc_core.types import Array
 from apnc_plant.chance import checked_seed, side_offset
-from apnc_plant.channels import PlantError
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Ground, GroundInC, Plane
 from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import Numbers, conditions_numbers, robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import RobotDescription
-from apnc_plant.sample import sample_channels
+from apnc_plant.sample import sample_signals
+from apnc_plant.signals import PlantError
 from apnc_plant.start import start_coordinates
 from apnc_plant.trace import Trace
 
@@ -152,16 +152,16 @@ class Plant:
         self._lib.plant_sample(self._plant.at, 0, self._row_in_c)
 
     def trace(self) -> Trace:
-        """A recorder of every channel in ``PLANT_CHANNELS``, a row per tick."""
-        return Trace((self._row,), self._channels)
+        """A recorder of every signal in ``PLANT_SIGNALS``, a row per tick."""
+        return Trace((self._row,), self._signals)
 
     def sample(self) -> dict[str, Array]:
-        """One sample of every channel in ``PLANT_CHANNELS``, at the current time."""
-        channels = self._channels(self._row[np.newaxis])
-        return {name: values[0] for name, values in channels.items()}
+        """One sample of every signal in ``PLANT_SIGNALS``, at the current time."""
+        signals = self._signals(self._row[np.newaxis])
+        return {name: values[0] for name, values in signals.items()}
 
-    def _channels(self, rows: Array) -> dict[str, Array]:
-        return sample_channels(rows, self.n_legs)
+    def _signals(self, rows: Array) -> dict[str, Array]:
+        return sample_signals(rows, self.n_legs)
 
     @property
     def fell(self) -> bool:

@@ -11,7 +11,6 @@ import numpy as np
 
 from apnc_core.types import Array
 from apnc_plant.chance import checked_seed, side_offset
-from apnc_plant.channels import PlantError
 from apnc_plant.compiled import foot_mass
 from apnc_plant.conditions import Conditions
 from apnc_plant.coordinates import BASE, JOINT_SIGN
@@ -21,6 +20,7 @@ from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import MassProperties, RobotDescription
 from apnc_plant.sensor.load import LoadSensor
+from apnc_plant.signals import PlantError
 from apnc_plant.start import start_coordinates
 from apnc_plant.trace import Trace
 
@@ -255,19 +255,19 @@ class LeggedPlant:
         self._forces.measure(self._q, self._v)
 
     def trace(self) -> Trace:
-        """A recorder of every channel in ``PLANT_CHANNELS``, a row per tick."""
-        return Trace(self._parts, self._channels)
+        """A recorder of every signal in ``PLANT_SIGNALS``, a row per tick."""
+        return Trace(self._parts, self._signals)
 
     def sample(self) -> dict[str, Array]:
-        """One sample of every channel in ``PLANT_CHANNELS``, at the current time."""
-        channels = self._channels(np.concatenate(self._parts)[np.newaxis])
-        return {name: values[0] for name, values in channels.items()}
+        """One sample of every signal in ``PLANT_SIGNALS``, at the current time."""
+        signals = self._signals(np.concatenate(self._parts)[np.newaxis])
+        return {name: values[0] for name, values in signals.items()}
 
     @property
     def _parts(self) -> tuple[Array, ...]:
         return (self._q, self._v, self._forces.result, self._forces.work, self._reading)
 
-    def _channels(self, rows: Array) -> dict[str, Array]:
+    def _signals(self, rows: Array) -> dict[str, Array]:
         n, size = self.n_legs, BASE + 3 * self.n_legs
         ends = np.cumsum([size, size, 3 * n, 3 * n, 3 * n, n, 3 * n])
         q, v, torque, foot, force, _, work, reading = np.split(rows, ends, axis=1)

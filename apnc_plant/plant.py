@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Protocol
 
 from apnc_core.types import Array
-from apnc_plant.channels import PlantError
 from apnc_plant.conditions import Conditions
+from apnc_plant.signals import PlantError
 from apnc_plant.trace import Trace
 
 __all__ = ["Plant", "PlantError"]
@@ -41,4 +41,4 @@ class Plant(Protocol):
         """
 
     def trace(self) -> Trace:
-        """A recorder of every channel in ``apnc_plant.channels.PLANT_CHANNELS``."""
+        """A recorder of every signal in ``apnc_plant.signals.PLANT_SIGNALS``."""

@@ -20,7 +20,7 @@ class Trace:
 
     Args:
         parts: arrays whose entries, one after the other, are a row; read anew at every tick.
-        split: makes channels of rows of shape (ticks, width), row by row.
+        split: makes signals of rows of shape (ticks, width), row by row.
     """
 
     def __init__(self, parts: Sequence[Array], split: Split) -> None:
@@ -40,18 +40,18 @@ class Trace:
         np.concatenate(self._parts, out=self._chunks[-1][place])
         self._length += 1
 
-    def channels(self) -> dict[str, Array]:
+    def signals(self) -> dict[str, Array]:
         """Everything taken, by name, ticks along the first axis; (0, ...) if nothing was taken."""
         empty = self._split(np.empty((0, self._width)))
-        channels = {
+        signals = {
             name: np.empty((self._length, *like.shape[1:]), like.dtype)
             for name, like in empty.items()
         }
-        # One chunk at a time: rows and channels are both in memory, and little else.
+        # One chunk at a time: rows and signals are both in memory, and little else.
         for start, rows in self._rows():
             for name, values in self._split(rows).items():
-                channels[name][start : start + len(rows)] = values
-        return channels
+                signals[name][start : start + len(rows)] = values
+        return signals
 
     def _rows(self) -> Iterator[tuple[int, Array]]:
         for index, chunk in enumerate(self._chunks):

@@ -12,14 +12,13 @@ from dataclasses import replace
 from enum import IntEnum
 from typing import Any, Final
 
-from apnc_plant.channels import PLANT_CHANNELS, Channel
-
 from apnc_core.enumerations import Enumeration
 from apnc_core.schema import Causality, Shape, Type, Value, Variable
 from apnc_core.variables import variable_named as controller_variable
 from apnc_plant.conditions import PAYLOAD
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import RobotDescription
+from apnc_plant.signals import PLANT_SIGNALS, Signal
 
 COMMANDS: Final = ("theta_hip", "theta_knee")
 LOAD: Final = "grf"
@@ -162,15 +161,15 @@ PARTS: Final = ("servo", "contact", "sensor")
 """Parts of a robot whose numbers are parameters, by the names of their fields."""
 
 
-def _outputs(channel: Channel) -> list[Variable]:
-    """Rows of a channel: one per component, with an entry per leg."""
-    names = [f"{channel.name}.{c}" for c in channel.components] or [channel.name]
-    description = "; ".join(filter(None, (channel.description, channel.frame, channel.sign)))
+def _outputs(signal: Signal) -> list[Variable]:
+    """Rows of a signal: one per component, with an entry per leg."""
+    names = [f"{signal.name}.{c}" for c in signal.components] or [signal.name]
+    description = "; ".join(filter(None, (signal.description, signal.frame, signal.sign)))
     return [
         Variable(
             name, "", description, Causality.output, "continuous",
-            shape=Shape.leg if channel.per_leg else Shape.scalar,
-            unit=channel.unit, initial_from=tuple(v.name for v in _PARAMETERS),
+            shape=Shape.leg if signal.per_leg else Shape.scalar,
+            unit=signal.unit, initial_from=tuple(v.name for v in _PARAMETERS),
         )
         for name in names
     ]  # fmt: skip
@@ -190,7 +189,7 @@ FELL: Final = Variable(
 TABLE: Final = (
     *map(_input, COMMANDS),
     *_PARAMETERS,
-    *(v for channel in PLANT_CHANNELS for v in _outputs(channel)),
+    *(v for signal in PLANT_SIGNALS for v in _outputs(signal)),
     FELL,
 )
 

@@ -19,7 +19,7 @@ if summary.convergence_time_s is None:
 else:
     print(f"trot after           {summary.convergence_time_s:.1f} s, held to the end")
 
-height = record.plant["position"][:, 2]  # one array per channel, first axis time
+height = record.signals["position"][:, 2]  # one array per signal, first axis time
 print(f"height of the trunk  {1e3 * height.min():.0f} ... {1e3 * height.max():.0f} mm")
 
 apnc.write_report(record, "walk")

@@ -18,9 +18,9 @@ print(
 
 record = apnc.simulate(experiment)
 summary = apnc.summarise(record)
-phases = ", ".join(f"{phi:.2f}" for phi in record.controller["phi"][-1])
+phases = ", ".join(f"{phi:.2f}" for phi in record.signals["phi"][-1])
 print(f"{record.end} at {record.ended_at:.1f} s, {summary.path_speed_m_per_s:.3f} m/s")
 print(f"phases against {record.legs[0]} at the end: {phases} rad")
 
-standing = record.plant["foot_force"][-600:, :, 2].sum(axis=1).mean()  # the last 10 s
+standing = record.signals["foot_force"][-600:, :, 2].sum(axis=1).mean()  # the last 10 s
 print(f"force on the ground {standing:.1f} N")

@@ -13,6 +13,6 @@ for name, settings in (("empty memory", {}), ("learned gait", with_memory)):
     record = apnc.simulate(
         apnc.Experiment(mi=0.15, duration=12, conditions="S3", settings=settings)
     )
-    phases = ", ".join(f"{phi:5.2f}" for phi in record.controller["phi"][-1])
+    phases = ", ".join(f"{phi:5.2f}" for phi in record.signals["phi"][-1])
     speed = apnc.summarise(record).path_speed_m_per_s
     print(f"{name}: phases {phases} rad, {speed:.3f} m/s along the path")

@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from apnc_core.types import Array
-from apnc_plant.channels import PlantError
 from apnc_plant.legged import Engine, LeggedPlant, Setup
+from apnc_plant.signals import PlantError
 from exudyn_models.engine import exu
 from exudyn_models.tree import add_tree
 

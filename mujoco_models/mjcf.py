@@ -59,7 +59,7 @@ def robot_mjcf(
 ) -> str:
     """The robot for other users: free base, servos, sensors, a level ground and something to see.
 
-    Joint angles, their signs and the reference pose are ours, see ``apnc_plant.channels``. In the
+    Joint angles, their signs and the reference pose are ours, see ``apnc_plant.signals``. In the
     keyframe ``stand`` all joints are at 0 and the lowest foot touches the ground. Trunk, hip and
     femur links touch as their boxes whatever is in the scene, but not each other.
 

@@ -7,10 +7,10 @@ from typing import Any, ClassVar, Final
 import numpy as np
 
 from apnc_core.types import Array
-from apnc_plant.channels import PlantError
 from apnc_plant.legged import Engine, Setup
 from apnc_plant.robot.model import RobotDescription
 from apnc_plant.robot.names import plainly_named
+from apnc_plant.signals import PlantError
 from mujoco_models.engine import mj
 from mujoco_models.mjcf import foot_of, robot_mjcf, tree_mjcf
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
-from apnc.studies.rows import Row, matching, successes, values
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
+from apnc.studies.rows import Row, matching, successes, values
 from apnc.studies.states.measure import STOPPED
 from apnc.studies.states.measure import measure as judged
 from apnc.studies.states.timeline import TIMELINE
@@ -78,7 +78,7 @@ def measure(record: Record) -> Row:
     """
     if not isinstance(record.experiment.mi, tuple):
         return {}
-    time, o1 = record.time, record.controller["o1"]
+    time, o1 = record.time, record.signals["o1"]
     late = o1[(time >= TIMELINE.restarted - 1.0) & (time < TIMELINE.restarted)]
     moves = bool((np.ptp(late, axis=0) >= STOPPED).any()) if len(late) else None
     return judged(record) | {STOP_MOVES: moves}

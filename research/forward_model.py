@@ -47,8 +47,8 @@ def measure(record: Record) -> Row:
     ``feedback_kept`` does not count. None if they never do, or have not by then, or for a run that
     ended early.
     """
-    gain = (record.controller["K_f"] + record.controller["K_s"]).mean(axis=1)
-    on, begin = record.controller["kappa"] > 0.0, record.experiment.duration - LAST
+    gain = (record.signals["K_f"] + record.signals["K_s"]).mean(axis=1)
+    on, begin = record.signals["kappa"] > 0.0, record.experiment.duration - LAST
     first = float(record.time[on.argmax()]) if on.any() else np.inf
     if not record.complete or first > begin or on[:1].any():
         return {FORMING: None, LATE: None}

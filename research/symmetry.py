@@ -35,7 +35,7 @@ def experiment(method: str, seed: int, mi: float) -> Experiment:
 
 def measure(record: Record) -> Row:
     """When a leg was first more than 0.6 rad from the phase of another [s], None if never."""
-    o1, o2 = record.controller["o1"], record.controller["o2"]
+    o1, o2 = record.signals["o1"], record.signals["o2"]
     error = metrics.phase_error(o1, o2, (0.0,) * (len(record.legs) - 1))
     apart = record.time[error > metrics.STRICT_TOLERANCE]
     return {PARTED: float(apart[0]) if len(apart) else None}

@@ -13,7 +13,7 @@ import numpy as np
 from apnc.loop.controller_library import ControllerLibrary, controller_library
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuError
-from apnc.loop.record import End, Record
+from apnc.loop.record import End, Record, merged
 from apnc.loop.steps import steps_of
 from apnc_core.schema import Shape
 from apnc_core.types import Array
@@ -23,7 +23,7 @@ from apnc_plant.ground import GroundInC
 from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import conditions_numbers, robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.sample import record_channels, sample_size
+from apnc_plant.sample import record_signals, sample_size
 from apnc_plant.start import start_coordinates
 from build_fmu.build import host_fmu
 
@@ -103,7 +103,7 @@ class Run:
     @property
     def phi(self) -> Array:
         """Relative phases that the controller showed at the last tick [rad], (n_legs - 1,)."""
-        phi: Array = self._controller_channels(max(1, self.ticks))["phi"][-1]
+        phi: Array = self._controller_signals(max(1, self.ticks))["phi"][-1]
         return phi
 
     @property
@@ -111,15 +111,15 @@ class Run:
         """Ticks that were taken."""
         return int(self.at.count)
 
-    def _controller_channels(self, count: int) -> dict[str, Array]:
+    def _controller_signals(self, count: int) -> dict[str, Array]:
         """The first samples of every variable of the controller, by name."""
-        channels, start, ticks = {}, 0, self.experiment.ticks
+        signals, start, ticks = {}, 0, self.experiment.ticks
         for name, size in self._controller.sizes.items():
             values = self._shown[start : start + ticks * size]
             scalar = variable_named(name).shape is Shape.scalar
-            channels[name] = (values if scalar else values.reshape(ticks, size))[:count]
+            signals[name] = (values if scalar else values.reshape(ticks, size))[:count]
             start += ticks * size
-        return channels
+        return signals
 
     def record(self, end: End | None = None) -> Record:
         """What was recorded.
@@ -149,8 +149,10 @@ class Run:
         return Record(
             legs=tuple(leg.name for leg in robot.legs),
             time=np.arange(count, dtype=np.float64) * self.experiment.Ts,
-            plant=record_channels(self._samples, self.experiment.ticks, count, len(robot.legs)),
-            controller=self._controller_channels(count),
+            signals=merged(
+                plant=record_signals(self._samples, self.experiment.ticks, count, len(robot.legs)),
+                controller=self._controller_signals(count),
+            ),
             mass=self.mass,
             experiment=self.experiment,
             robot=robot,

@@ -1,4 +1,4 @@
-"""``record.csv``: every channel of a run, a row per tick, SI units throughout."""
+"""``record.csv``: every signal of a run, a row per tick, SI units throughout."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _ROWS: Final = 4096
 
 
 def write_csv(record: Record, path: Path) -> None:
-    """Write every channel; docs/record.md says what the columns are.
+    """Write every signal; docs/record.md says what the columns are.
 
     Raises:
         OSError: the file cannot be written.

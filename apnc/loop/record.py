@@ -1,4 +1,4 @@
-"""What a run leaves behind: every channel, sampled once per control tick."""
+"""What a run leaves behind: every signal, sampled once per control tick."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from apnc_core.schema import Shape, Variable
 from apnc_core.settings import Setting
 from apnc_core.types import Array
 from apnc_core.variables import TABLE
-from apnc_plant.channels import PLANT_CHANNELS
 from apnc_plant.robot import RobotDescription
+from apnc_plant.signals import PLANT_SIGNALS
 
 
 class End(StrEnum):
@@ -32,11 +32,11 @@ class Record:
     Args:
         legs: leg names in FMU order, e.g. ``("RF", "RH", "LF", "LH")``.
         time: sample times [s], shape (T,).
-        plant: channel name -> array of shape (T, \\*channel.shape(n_legs)), see
-            ``apnc_plant.channels``.
-        controller: row name of the table of variables -> array of shape (T,), (T, n_legs) for
-            rows per leg or (T, n_legs - 1) for phase relations (phi12, phi13, ...): every input,
-            output and local variable.
+        signals: name -> array, first axis time. The signals of the robot have the shape
+            (T, \\*signal.shape(n_legs)), see ``apnc_plant.signals.PLANT_SIGNALS``. Those of the
+            controller are its inputs, outputs and local variables, see
+            ``apnc_core.variables.TABLE``: shape (T,), (T, n_legs) for a variable of each leg or
+            (T, n_legs - 1) for phase relations (phi12, phi13, ...).
         mass: total mass of the robot with its payload [kg].
         experiment: what was run.
         robot: what walked.
@@ -50,8 +50,7 @@ class Record:
 
     legs: tuple[str, ...]
     time: Array
-    plant: Mapping[str, Array]
-    controller: Mapping[str, Array]
+    signals: Mapping[str, Array]
     mass: float
     experiment: Experiment
     robot: RobotDescription
@@ -64,6 +63,11 @@ class Record:
     def __len__(self) -> int:
         return len(self.time)
 
+    def __getitem__(self, part: slice) -> Record:
+        """The run with the samples of a part alone, e.g. ``record[60:]`` or ``record[:-1]``."""
+        signals = {name: values[part] for name, values in self.signals.items()}
+        return replace(self, time=self.time[part], signals=signals)
+
     @property
     def n_legs(self) -> int:
         """Number of legs."""
@@ -71,9 +75,7 @@ class Record:
 
     def until(self, count: int) -> Record:
         """The first ``count`` samples of the run."""
-        plant = {name: values[:count] for name, values in self.plant.items()}
-        controller = {name: values[:count] for name, values in self.controller.items()}
-        return replace(self, time=self.time[:count], plant=plant, controller=controller)
+        return self[:count]
 
     @property
     def complete(self) -> bool:
@@ -84,6 +86,15 @@ class Record:
     def ended_at(self) -> float:
         """Simulated time [s]; a sample stands for the whole tick that follows it."""
         return round(len(self) * self.experiment.Ts, 9)
+
+
+def merged(plant: Mapping[str, Array], controller: Mapping[str, Array]) -> dict[str, Array]:
+    """The signals of a record.
+
+    The load ``grf`` is an output of the robot and an input of the controller. It is recorded once,
+    as it reached the controller.
+    """
+    return {**plant, **controller}
 
 
 @dataclass(frozen=True)
@@ -106,9 +117,9 @@ def column_names(record: Record) -> list[Column]:
 
 
 def columns(record: Record) -> dict[str, Array]:
-    """All channels as flat columns of shape (T,), by name.
+    """All signals as flat columns of shape (T,), by name.
 
-    Vectors are named by component, channels per leg by leg, relations by the pair of legs.
+    Vectors are named by component, signals per leg by leg, relations by the pair of legs.
     """
     return {column.name: values for column, values in _columns(record)}
 
@@ -116,19 +127,20 @@ def columns(record: Record) -> dict[str, Array]:
 def _columns(record: Record) -> Iterator[tuple[Column, Array]]:
     yield _TIME, record.time
     described = {variable.name: variable for variable in TABLE}
-    for name, values in record.controller.items():
-        if name in record.plant:  # the load is what the plant delivered
+    of_plant = {signal.name for signal in PLANT_SIGNALS}
+    for name, values in record.signals.items():
+        if name in of_plant:
             continue
         variable = described[name]
         entries = values.reshape(len(record), values.shape[1] if values.ndim > 1 else 1)
         for entry, label in enumerate(_labels(variable, record.legs)):
             column = Column(label, variable.unit or "", "", variable.description)
             yield column, entries[:, entry]
-    for channel in PLANT_CHANNELS:
-        names = channel.columns(record.legs)
-        entries = record.plant[channel.name].reshape(len(record), len(names))
+    for signal in PLANT_SIGNALS:
+        names = signal.columns(record.legs)
+        entries = record.signals[signal.name].reshape(len(record), len(names))
         for entry, label in enumerate(names):
-            column = Column(label, channel.unit, channel.frame, channel.description, channel.sign)
+            column = Column(label, signal.unit, signal.frame, signal.description, signal.sign)
             yield column, entries[:, entry]
 
 

@@ -13,7 +13,7 @@ from apnc.loop.batch import Batch, Run, contacts_of, lanes_of
 from apnc.loop.engines import COMPILED, plant_in
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuController
-from apnc.loop.record import End, Record
+from apnc.loop.record import End, Record, merged
 from apnc.loop.steps import Course
 from apnc_plant.options import PlantOptions
 from apnc_plant.plant import Plant, PlantError
@@ -124,8 +124,7 @@ def _run(
     return Record(
         legs=plant.legs,
         time=np.arange(len(body), dtype=np.float64) * Ts,
-        plant=body.channels(),
-        controller=brain.channels(),
+        signals=merged(plant=body.signals(), controller=brain.signals()),
         mass=plant.mass,
         experiment=experiment,
         robot=experiment.description,

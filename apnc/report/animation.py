@@ -41,7 +41,7 @@ def animation_data(run: Run) -> dict[str, Any]:
     arrays = {
         "position": plant["position"],
         "rpy": plant["rpy"],
-        "focus": metrics.smooth(record.plant["position"])[at],
+        "focus": metrics.smooth(record.signals["position"])[at],
         "track": track @ ground.rotation().T,
         "corners": corners,
         "chains": chains,

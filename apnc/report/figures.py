@@ -13,7 +13,7 @@ from apnc.report.figure import Figure, Trace
 from apnc.report.panels import Run, line, stacked
 from apnc.report.skeleton import clearance, in_ground
 from apnc_core.types import Array
-from apnc_plant.channels import JOINT_SIGNS, JOINTS
+from apnc_plant.signals import JOINT_SIGNS, JOINTS
 
 PI_TICKS: Final = {
     "tickvals": [-np.pi / 2, 0.0, np.pi / 2, np.pi, 3 * np.pi / 2],
@@ -51,7 +51,7 @@ def gait(run: Run) -> Figure:
 
 def phases(run: Run) -> Figure:
     """Relative phases of the oscillators, and the target gait."""
-    c, legs, target = run.record.controller, run.record.legs, run.summary.phi_target
+    c, legs, target = run.record.signals, run.record.legs, run.summary.phi_target
     smoothed = metrics.relative_phases(c["o1"], c["o2"])
     own = {"width": 1, "dash": "dot", "visible": "legendonly", "legendgroup": "fmu"}
     traces = []
@@ -81,7 +81,7 @@ def phases(run: Run) -> Figure:
 
 
 def _speed(run: Run) -> Figure:
-    plant, mean = run.record.plant, run.summary.path_speed_m_per_s
+    plant, mean = run.record.signals, run.summary.path_speed_m_per_s
     yaw = plant["rpy"][:, 2]
     raw = plant["velocity"][:, 0] * np.cos(yaw) + plant["velocity"][:, 1] * np.sin(yaw)
     slow = metrics.smoothed_speed(run.record.time, plant["position"], yaw)
@@ -112,7 +112,7 @@ def _path(run: Run) -> Figure:
 
 
 def _trunk(run: Run) -> Figure:
-    plant = run.record.plant
+    plant = run.record.signals
     height = in_ground(run.record.experiment.ground, plant["position"])[:, 2]
     angles = np.degrees(np.unwrap(plant["rpy"], axis=0)).T
     names = ("height [m]", "roll [°]", "pitch [°]", "yaw [°]")
@@ -139,10 +139,10 @@ def _clearances(run: Run) -> Figure:
 
 
 def _loads(run: Run) -> Figure:
-    force = run.record.plant["foot_force"][..., 2]
+    force = run.record.signals["foot_force"][..., 2]
     # A handful of impacts may be ten times the load of a step and would flatten every step.
     usual = max(float(np.nanquantile(force, 0.995)), 1.0)
-    series = {"force of the ground": force, "sensor": run.record.plant["grf"]}
+    series = {"force of the ground": force, "sensor": run.record.signals["grf"]}
     note = (
         "Vertical force of the ground on the foot, and what the sensor of the foot tells the FMU. "
         "The rows cut off impact peaks; Autoscale shows them."
@@ -153,13 +153,13 @@ def _loads(run: Run) -> Figure:
 
 def outputs(run: Run) -> Figure:
     """Outputs of the oscillators, a row per leg."""
-    series = {"o1 (hip)": run.record.controller["o1"], "o2 (knee)": run.record.controller["o2"]}
+    series = {"o1 (hip)": run.record.signals["o1"], "o2 (knee)": run.record.signals["o2"]}
     note = "o1 drives the hip, o2 the knee."
     return run.leg_rows("cpg", "CPG outputs", "1", series, note, range=[-1.2, 1.2])
 
 
 def _gains(run: Run) -> Figure:
-    gamma = run.record.controller["gamma"].T
+    gamma = run.record.signals["gamma"].T
     lines = [run.line(g, *leg) for g, leg in zip(gamma, run.colours.items(), strict=True)]
     note = (
         "Gain of the load feedback on each CPG as it acts: learned while walking (Eq. 9), times "
@@ -170,9 +170,9 @@ def _gains(run: Run) -> Figure:
 
 
 def _stability(run: Run) -> Figure:
-    d = run.line(run.record.controller["d"], "d, left axis", theme.INK)
+    d = run.line(run.record.signals["d"], "d, left axis", theme.INK)
     area = {"yaxis": "y2", "fill": "tozeroy", "fillcolor": "rgba(213, 94, 0, 0.10)"}
-    kappa = run.line(run.record.controller["kappa"], "κ, right axis", theme.VERMILLION, **area)
+    kappa = run.line(run.record.signals["kappa"], "κ, right axis", theme.VERMILLION, **area)
     kappa["line"]["shape"] = "hv"
     right = {"overlaying": "y", "side": "right", "range": [0, 1.08], "tickvals": [0, 1]}
     return _over_time(
@@ -186,8 +186,8 @@ def _stability(run: Run) -> Figure:
 
 
 def _angles(run: Run, joint: str) -> Figure:
-    actual = run.record.plant["joint_angle"][..., JOINTS.index(joint)]
-    commanded = run.record.controller[f"theta_{joint}"]
+    actual = run.record.signals["joint_angle"][..., JOINTS.index(joint)]
+    commanded = run.record.signals[f"theta_{joint}"]
     series = {"actual": np.degrees(actual), "commanded": np.degrees(commanded)}
     note = (
         f"Against the reference pose; a positive angle {JOINT_SIGNS[joint]}. Commanded: by the "
@@ -197,7 +197,7 @@ def _angles(run: Run, joint: str) -> Figure:
 
 
 def _torques(run: Run) -> Figure:
-    torque = run.record.plant["joint_torque"]
+    torque = run.record.signals["joint_torque"]
     series = {joint: torque[..., JOINTS.index(joint)] for joint in ("hip", "knee")}
     note = "Torque of the servos on the joints, positive in the direction of positive angles."
     return run.leg_rows("torque", "Joint torques", "N m", series, note)
@@ -216,7 +216,7 @@ def _bars(run: Run, row: int) -> Trace:
 
 def _second_touches(run: Run) -> Trace:
     """Marks where a foot comes down again in the same cycle of its oscillator."""
-    c, x, y = run.record.controller, [], []
+    c, x, y = run.record.signals, [], []
     starts = metrics.cycle_starts(c["o1"], c["o2"])
     for row, (stands, start) in enumerate(zip(run.standing.T, starts, strict=True)):
         downs = np.flatnonzero(stands[1:] & ~stands[:-1]) + 1

@@ -84,36 +84,36 @@ def _definition(own: str, others: dict[str, str]) -> str:
 def _messages(record: Record, tick: int, stamp: int) -> Iterator[tuple[str, str, dict[str, Any]]]:
     time = dict(zip(("sec", "nanosec"), divmod(stamp, 10**9), strict=True))
     body, world = ({"stamp": time, "frame_id": frame} for frame in ("", "world"))
-    plant, controller, legs = record.plant, record.controller, record.legs
+    signals, legs = record.signals, record.legs
     joints = [f"{leg}_{joint}" for leg in legs for joint in ("abduction", "hip", "knee")]
     position, velocity, effort = (
-        plant[name][tick].ravel().tolist()
+        signals[name][tick].ravel().tolist()
         for name in ("joint_angle", "joint_speed", "joint_torque")
     )
     state = {"name": joints, "position": position, "velocity": velocity, "effort": effort}
     yield "/joint_states", "sensor_msgs/msg/JointState", {"header": body, **state}
     commands = {
         "name": [f"{leg}_{joint}" for joint in ("hip", "knee") for leg in legs],
-        "position": [*controller["theta_hip"][tick], *controller["theta_knee"][tick]],
+        "position": [*signals["theta_hip"][tick], *signals["theta_knee"][tick]],
         "velocity": [],
         "effort": [],
     }
     yield "/joint_commands", "sensor_msgs/msg/JointState", {"header": body, **commands}
-    turn = Rotation.from_euler("xyz", plant["rpy"][tick]).as_quat()
+    turn = Rotation.from_euler("xyz", signals["rpy"][tick]).as_quat()
     pose = {
-        "position": dict(zip("xyz", plant["position"][tick], strict=True)),
+        "position": dict(zip("xyz", signals["position"][tick], strict=True)),
         "orientation": dict(zip("xyzw", turn, strict=True)),
     }
     yield "/trunk", "geometry_msgs/msg/PoseStamped", {"header": world, "pose": pose}
-    for leg, force in zip(legs, plant["foot_force"][tick], strict=True):
+    for leg, force in zip(legs, signals["foot_force"][tick], strict=True):
         wrench = {
             "force": dict(zip("xyz", force, strict=True)),
             "torque": dict.fromkeys("xyz", 0.0),
         }
         message = {"header": world, "wrench": wrench}
         yield f"/foot_force/{leg}", "geometry_msgs/msg/WrenchStamped", message
-    for k, phi in enumerate(controller["phi"][tick], start=2):
+    for k, phi in enumerate(signals["phi"][tick], start=2):
         yield f"/apnc/phi1{k}", "std_msgs/msg/Float64", {"data": float(phi)}
     for name in ("d", "kappa"):
-        value = {"data": float(controller[name][tick])}
+        value = {"data": float(signals[name][tick])}
         yield f"/apnc/{name}", "std_msgs/msg/Float64", value

@@ -17,6 +17,7 @@ from apnc.report.samples import LATE_S
 from apnc.report.theme import leg_colours
 from apnc.report.wording import facts, heading, rows, verdicts
 from apnc.summary import Summary
+from apnc_plant.signals import PLANT_SIGNALS
 
 BEYOND: Final = 1e4
 """Size from which on a length, angle, speed, force or torque is that of a diverged motion [SI]."""
@@ -49,8 +50,9 @@ def drawable(record: Record) -> Record:
     if record.end is not End.diverged:
         return record
     # work grows without bounds in a sound motion, too
-    channels = [v.reshape(len(v), -1) for name, v in record.plant.items() if name != "joint_work"]
-    largest = np.abs(np.concatenate(channels, axis=1)).max(axis=1)
+    names = [signal.name for signal in PLANT_SIGNALS if signal.name != "joint_work"]
+    values = [record.signals[name].reshape(len(record), -1) for name in names]
+    largest = np.abs(np.concatenate(values, axis=1)).max(axis=1)
     unsound = np.flatnonzero(~(largest < BEYOND))  # NaN, too
     return record.until(int(unsound[0])) if len(unsound) else record
 

@@ -18,6 +18,7 @@ from apnc.report.figure import Figure, Trace
 from apnc.report.samples import Samples
 from apnc.summary import Summary
 from apnc_core.types import Array
+from apnc_plant.signals import PLANT_SIGNALS
 
 # Solid and dotted: told apart without colours.
 STYLES: Final = ({"width": 1.7, "dash": "solid"}, {"width": 1.3, "dash": "dot"})
@@ -38,13 +39,13 @@ class Run:
 
     @cached_property
     def shown(self) -> dict[str, Array]:
-        """The channels of the plant at the samples that are shown."""
-        return {name: values[self.samples.at] for name, values in self.record.plant.items()}
+        """The signals of the plant at the samples that are shown."""
+        return {s.name: self.record.signals[s.name][self.samples.at] for s in PLANT_SIGNALS}
 
     @cached_property
     def standing(self) -> NDArray[np.bool_]:
         """Which feet stand, shape (T, n)."""
-        return metrics.stance(self.record.plant["foot_force"][..., 2])
+        return metrics.stance(self.record.signals["foot_force"][..., 2])
 
     @property
     def colours(self) -> dict[str, str]:

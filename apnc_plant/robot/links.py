@@ -19,7 +19,7 @@ class Link(NamedTuple):
         joint: ``"abduction"``, ``"hip"`` or ``"knee"``.
         place: of the joint in the frame of the link before, the trunk for the first [m].
         pitch: rotation about y from that frame to the link's in the reference pose [rad].
-        axis: of the joint, so that a positive angle is what ``apnc_plant.channels`` calls so.
+        axis: of the joint, so that a positive angle is what ``apnc_plant.signals`` calls so.
         body: mass properties in the frame of the link.
     """
 

@@ -84,7 +84,7 @@ typedef struct {
     int32_t n_conditions;              /* */
     const int32_t *condition_tick;     /* from which each holds; the first is 0 */
     const plant_conditions *condition; /* */
-    double *plant_record;      /* the channels of plant_sample one after the other, each of `ticks`
+    double *plant_record;      /* the signals of plant_sample one after the other, each of `ticks`
                                   times its size; NULL: none */
     double *controller_record; /* the variables one after the other, each of `ticks` times its
                                   size; NULL: none */

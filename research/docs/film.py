@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Final
@@ -76,7 +75,7 @@ class View:
     """
 
     def __init__(self, record: Record) -> None:
-        plant, self.record = record.plant, record
+        plant, self.record = record.signals, record
         place, yaw = (metrics.smooth(v) for v in (plant["position"], np.unwrap(plant["rpy"][:, 2])))
         ahead = np.stack([np.cos(yaw), np.sin(yaw)], axis=-1)
 
@@ -96,7 +95,7 @@ class View:
         )
         self.loads = plant["foot_force"][..., 2] * 2.0 / (record.mass * metrics.GRAVITY)
         self.standing = metrics.stance(plant["foot_force"][..., 2])
-        c = record.controller
+        c = record.signals
         self.starts = metrics.cycle_starts(c["o1"], c["o2"])
 
     def at(self, sample: float) -> Moment:
@@ -327,9 +326,7 @@ def _told(value: float | None, digits: int) -> str:
 def steady_part(record: Record) -> Record:
     """The walk from ``STEADY`` on."""
     begin = int(np.searchsorted(record.time, STEADY))
-    plant = {name: values[begin:] for name, values in record.plant.items()}
-    controller = {name: values[begin:] for name, values in record.controller.items()}
-    return replace(record, time=record.time[begin:], plant=plant, controller=controller)
+    return record[begin:]
 
 
 def main(folder: Path, mis: Sequence[float]) -> None:

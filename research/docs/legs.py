@@ -73,7 +73,7 @@ def walked(robot: str, which: str, mi: float, seed: int) -> Row:
     """The gait in which a run without couplings ends."""
     experiment = Experiment(robot=robot, mi=mi, seed=seed, duration=SECONDS, method="apc")
     record = simulate(experiment, plant=plant(which, experiment))
-    o1, o2 = record.controller["o1"], record.controller["o2"]
+    o1, o2 = record.signals["o1"], record.signals["o2"]
     phases = metrics.final_phases(o1, o2, experiment.Ts)
     return {
         "robot": robot, "plant": which, "mi": mi, "seed": seed, "end": str(record.end),

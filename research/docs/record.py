@@ -1,4 +1,4 @@
-"""Write record.md, the page of the columns of record.csv, from the table of variables and channels.
+"""Write record.md, the page of the columns of record.csv, from the table of variables and signals.
 
 python -m research.docs.record
 """
@@ -8,10 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from apnc.loop.experiment import Experiment
-from apnc.loop.record import Record, column_names
+from apnc.loop.record import Record, column_names, merged
 from apnc_core.schema import Causality, Shape
 from apnc_core.variables import TABLE
-from apnc_plant.channels import PLANT_CHANNELS
+from apnc_plant.signals import PLANT_SIGNALS
 from research.docs import DOCS
 
 HEAD = """# record.csv
@@ -50,7 +50,7 @@ def page() -> str:
 
 
 def _empty() -> Record:
-    """A record of no tick with every channel."""
+    """A record of no tick with every signal."""
     experiment = Experiment()
     robot = experiment.description
     n = len(robot.legs)
@@ -59,8 +59,10 @@ def _empty() -> Record:
     return Record(
         legs=tuple(leg.name for leg in robot.legs),
         time=np.empty(0),
-        plant={channel.name: np.empty((0, *channel.shape(n))) for channel in PLANT_CHANNELS},
-        controller={v.name: np.empty((0, *widths[v.shape])) for v in shown},
+        signals=merged(
+            plant={signal.name: np.empty((0, *signal.shape(n))) for signal in PLANT_SIGNALS},
+            controller={v.name: np.empty((0, *widths[v.shape])) for v in shown},
+        ),
         mass=robot.mass,
         experiment=experiment,
         robot=robot,

@@ -95,8 +95,7 @@ COUPLINGS: Final = {
 def direct(experiment: Experiment) -> dict[str, Any]:
     """A walk in one process."""
     record = simulate(experiment)
-    names = (("controller", "o1"), ("controller", "o2"), ("plant", "grf"), ("plant", "position"))
-    found = {name: getattr(record, part)[name] for part, name in names}
+    found = {name: record.signals[name] for name in ("o1", "o2", "grf", "position")}
     return measured(found, record.wall_s)
 
 
@@ -139,7 +138,7 @@ def in_c(folder: Path, experiment: Experiment) -> dict[str, Any]:
     )
     wall = time.perf_counter() - begin
     places = [float(line.split()[1]) for line in done.stdout.splitlines()[1:]]
-    if places != simulate(experiment).plant["position"][:, 0].tolist():
+    if places != simulate(experiment).signals["position"][:, 0].tolist():
         raise AssertionError("examples/host walks elsewhere than the direct loop")
     return direct(experiment) | {"wall_s": round(wall, 4)}
 

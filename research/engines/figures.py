@@ -91,7 +91,7 @@ def walks(records: Mapping[str, Record]) -> Figure:
     for engine, record in records.items():
         name, colour, _ = STYLES[engine]
         shown = record.time < SHOWN
-        phases = (record.controller["phi"][shown] + 1.0) % (2.0 * np.pi) - 1.0
+        phases = (record.signals["phi"][shown] + 1.0) % (2.0 * np.pi) - 1.0
         phases[1:][np.abs(np.diff(phases, axis=0)) > np.pi] = np.nan  # once round: a gap
         for k in range(phases.shape[1]):
             group = {"legendgroup": engine, "showlegend": k == 0, "x": float32(record.time[shown])}

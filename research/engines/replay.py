@@ -27,7 +27,7 @@ def path_of(engine: str, length: float = LENGTH) -> Array:
     for tick in range(round(length / TICK)):
         plant.advance(*commands(tick), TICK)
         trace.take()
-    return np.asarray(trace.channels()["position"])
+    return np.asarray(trace.signals()["position"])
 
 
 def distances(engine: str, length: float = LENGTH) -> Array:

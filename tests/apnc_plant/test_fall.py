@@ -8,7 +8,6 @@ import pytest
 from plants import Kind, in_both
 from scipy.spatial.transform import Rotation
 
-from apnc_plant.signals import PlantError
 from apnc_plant.compiled import PlantInC
 from apnc_plant.forces import RobotForces
 from apnc_plant.ground import Ground, GroundInC, Kerb, Plane
@@ -16,6 +15,7 @@ from apnc_plant.library import library
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import Body, RobotDescription, load_robot
+from apnc_plant.signals import PlantError
 from exudyn_models.plant import Plant as ExudynPlant
 
 TICK = 1 / 60

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from plants import AnyPlant, Kind, in_both
 
-from apnc_plant.signals import PLANT_SIGNALS, PlantError
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
+from apnc_plant.signals import PLANT_SIGNALS, PlantError
 
 TICK = 1 / 60
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
@@ -38,7 +38,7 @@ def coordinates(plant: AnyPlant) -> np.ndarray:
 
 
 @in_both
-def test_sample_has_every_channel_in_its_shape(kind: Kind) -> None:
+def test_sample_has_every_signal_in_its_shape(kind: Kind) -> None:
     sample = stand(kind, ROBOT, 0.1).sample()
     assert {name: value.shape for name, value in sample.items()} == {
         signal.name: signal.shape(4) for signal in PLANT_SIGNALS

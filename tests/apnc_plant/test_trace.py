@@ -13,7 +13,7 @@ def split(rows: np.ndarray) -> dict[str, np.ndarray]:
 
 
 @pytest.mark.parametrize("rows", [1, CHUNK - 1, CHUNK, CHUNK + 1, 3 * CHUNK])
-def test_channels_hold_every_row_in_order(rows: int) -> None:
+def test_signals_hold_every_row_in_order(rows: int) -> None:
     time, pair = np.zeros(1), np.zeros(2)
     trace = Trace([time, pair], split)
     for k in range(rows):
@@ -25,7 +25,7 @@ def test_channels_hold_every_row_in_order(rows: int) -> None:
     np.testing.assert_array_equal(signals["pair"][:, 0], np.stack([2.0 * ticks, -3.0 * ticks], 1))
 
 
-def test_nothing_taken_gives_channels_without_rows() -> None:
+def test_nothing_taken_gives_signals_without_rows() -> None:
     signals = Trace([np.zeros(1), np.zeros(2)], split).signals()
     assert {name: values.shape for name, values in signals.items()} == {
         "time": (0,),
@@ -33,7 +33,7 @@ def test_nothing_taken_gives_channels_without_rows() -> None:
     }
 
 
-def test_channels_can_be_taken_on_the_way() -> None:
+def test_signals_can_be_taken_on_the_way() -> None:
     trace = Trace([np.ones(1), np.zeros(2)], split)
     trace.take()
     first = trace.signals()["time"]

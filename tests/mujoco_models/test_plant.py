@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from odd_robot import odd_robot
 
-from apnc_plant.signals import PlantError
 from apnc_plant.conditions import Conditions, named_conditions
 from apnc_plant.ground import Obstacles, Plane
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.signals import PlantError
 from exudyn_models.plant import Plant as ExudynPlant
 
 pytest.importorskip("mujoco")

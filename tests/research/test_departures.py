@@ -47,7 +47,7 @@ def test_a_stop_is_one_if_no_oscillator_moves_before_the_restart(moves: bool) ->
     run = replace(
         record,
         experiment=TIMELINE.experiment("apnc", 0),
-        controller={**record.signals, "o1": o1},
+        signals={**record.signals, "o1": o1},
     )
     assert departures.measure(run)[departures.STOP_MOVES] is moves
 

@@ -38,8 +38,8 @@ def learned(stored: float, duration: float = 25.0) -> Record:
     on = base.time >= stored
     K = np.where(on[:, None], 0.01, [0.05, 0.0, 0.05, 0.0])
     experiment = replace(base.experiment, duration=duration)
-    controller = base.signals | {"K_f": K, "K_s": K, "kappa": 1.0 * on}
-    return replace(base, experiment=experiment, controller=controller)
+    signals = {**base.signals, "K_f": K, "K_s": K, "kappa": 1.0 * on}
+    return replace(base, experiment=experiment, signals=signals)
 
 
 def test_the_gain_is_that_of_equation_9_before_and_late() -> None:

@@ -33,7 +33,7 @@ def in_phase_until(parted: float, duration: float = 34.0) -> Record:
     lead = np.zeros((len(base.time), 4))
     lead[base.time >= parted, 1:] = TROT
     o1, o2 = outputs(2 * np.pi * 1.4 * base.time[:, None] + lead)
-    return replace(base, controller={**base.signals, "o1": o1, "o2": o2})
+    return replace(base, signals={**base.signals, "o1": o1, "o2": o2})
 
 
 def test_legs_part_when_one_leaves_the_phase_of_another() -> None:

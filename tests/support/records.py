@@ -85,7 +85,7 @@ def synthetic_record(
     return Record(
         legs=legs,
         time=t,
-        plant={
+        signals={
             "position": position,
             "rpy": rpy,
             "velocity": np.gradient(position, 1 / RATE, axis=0) if len(t) > 1 else 0 * position,
@@ -96,8 +96,6 @@ def synthetic_record(
             "foot_position": feet,
             "foot_force": force,
             "grf": grf,
-        },
-        controller={
             "o1": o1,
             "o2": o2,
             "theta_hip": 0.13 * o1 - 0.11,

@@ -11,8 +11,6 @@ from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
-from apnc.studies.contenders import CONTENDERS, contender
-from apnc.studies.rows import AUTHORS, STRICT, Row, cells_in, is_number, matching, successes, values
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
@@ -27,8 +25,10 @@ from apnc.studies.claims import (
     each_of,
     verdict,
 )
+from apnc.studies.contenders import CONTENDERS, contender
 from apnc.studies.plots import convergence
 from apnc.studies.registry import STUDIES
+from apnc.studies.rows import AUTHORS, STRICT, Row, cells_in, is_number, matching, successes, values
 from apnc.studies.states.measure import STOPPED, WALKS
 from apnc.studies.statistics import compare, median, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study
@@ -86,7 +86,7 @@ def seeds(cell: Mapping[str, Any], trials: int) -> int:
 
 def measure(record: Record) -> Row:
     """How many oscillators do not move at the end."""
-    late = record.controller["o1"][record.time >= record.ended_at - LAST]
+    late = record.signals["o1"][record.time >= record.ended_at - LAST]
     if len(late) == 0:
         return {STILL: None}
     return {STILL: int((np.ptp(late, axis=0) < STOPPED).sum())}

@@ -44,11 +44,11 @@ def measure(record: Record) -> Row:
     part = record.time >= SETTLED_S
     if not record.complete or np.count_nonzero(part) < 2:
         return dict.fromkeys((LIFT, SLIP, TOUCHES))
-    standing = metrics.stance(record.plant["foot_force"][..., 2])[part]
-    starts = metrics.cycle_starts(record.controller["o1"][part], record.controller["o2"][part])
-    feet = record.plant["foot_position"][part]
+    standing = metrics.stance(record.signals["foot_force"][..., 2])[part]
+    starts = metrics.cycle_starts(record.signals["o1"][part], record.signals["o2"][part])
+    feet = record.signals["foot_position"][part]
     frequency = metrics.stride_frequency(starts, 1.0 / record.experiment.rate)
-    way = metrics.path_length(record.plant["position"][part])
+    way = metrics.path_length(record.signals["position"][part])
     stride = metrics.stride_length(metrics.mean_speed(record.time[part], way), frequency)
     lifts = _known(metrics.foot_lifts(feet, standing, starts))
     slips = _known(metrics.slips(feet, standing, starts))

@@ -109,7 +109,7 @@ def measure(record: Record) -> Row:
     """
     if not record.complete:
         return {GAIT: None}
-    o1, o2 = record.controller["o1"], record.controller["o2"]
+    o1, o2 = record.signals["o1"], record.signals["o2"]
     period, span = 1.0 / record.experiment.rate, SETTLED_S
     if (metrics.coherence(o1, o2, period, span) or 0.0) < COHERENT:
         return {GAIT: "unsettled"}

@@ -216,14 +216,12 @@ class _Late:
 
     def __init__(self, record: Record) -> None:
         part = record.time >= record.time[-1] - LAST_S
-        self.time, self.plant = record.time[part], record.plant
-        self.standing = metrics.stance(record.plant["foot_force"][..., 2])[part]
-        self.starts = metrics.cycle_starts(
-            record.controller["o1"][part], record.controller["o2"][part]
-        )
-        self.feet = record.plant["foot_position"][part]
-        yaw = record.plant["rpy"][:, 2]
-        ahead = metrics.smoothed_speed(record.time, record.plant["position"], yaw)
+        self.time = record.time[part]
+        self.standing = metrics.stance(record.signals["foot_force"][..., 2])[part]
+        self.starts = metrics.cycle_starts(record.signals["o1"][part], record.signals["o2"][part])
+        self.feet = record.signals["foot_position"][part]
+        yaw = record.signals["rpy"][:, 2]
+        ahead = metrics.smoothed_speed(record.time, record.signals["position"], yaw)
         self.speed = float(ahead[part].mean())
         turned = metrics.turned(yaw[part]) or 0.0
         self.turning = turned / float(self.time[-1] - self.time[0])
@@ -282,7 +280,7 @@ def payload_cost(record: Record) -> float:
 def damage_cost(record: Record) -> float:
     """How far from a walk on three legs in which every oscillator runs."""
     last = round(4.0 * record.experiment.rate)
-    moved = np.ptp(record.controller["o1"][-last:], axis=0)
+    moved = np.ptp(record.signals["o1"][-last:], axis=0)
     stopped = float(np.clip(1.0 - moved, 0.0, 1.0).sum())
     return 0.5 * stopped + min(1.0, max(0.0, 0.06 - _Late(record).speed) / 0.05)
 
@@ -311,7 +309,7 @@ STEERING: Final[Mapping[str, Any]] = {
 
 def steering_cost(record: Record) -> float:
     """How far from turning briskly, and alike, to either side, with a stored gait."""
-    turned = np.unwrap(record.plant["rpy"][:, 2])[[270, 449, 540, 719]]
+    turned = np.unwrap(record.signals["rpy"][:, 2])[[270, 449, 540, 719]]
     left, right = float(turned[1] - turned[0]) / 3.0, float(turned[2] - turned[3]) / 3.0
     slow = sum(min(2.0, max(0.0, 1.0 - rate / WANTED_STEERING)) for rate in (left, right))
     return slow + min(1.0, abs(left - right) / WANTED_STEERING)
@@ -340,7 +338,7 @@ def blocked_cost(record: Record) -> float:
 
     The rate falls towards the stop, so the search sees where to go.
     """
-    o1 = record.controller["o1"][:, 0]
+    o1 = record.signals["o1"][:, 0]
     free, stuck = o1[60:300], o1[-480:]
     if np.ptp(stuck[-240:]) < STOPPED:
         return 0.0
@@ -358,7 +356,7 @@ def _turns(o1: Array) -> int:
 
 
 def _error(record: Record, part: slice) -> Array:
-    c = record.controller
+    c = record.signals
     error = metrics.phase_error(c["o1"][part], c["o2"][part], _target(len(record.legs)))
     return np.asarray(np.nan_to_num(error, nan=np.pi))
 

@@ -78,8 +78,8 @@ def _loads(run: Run) -> Figure:
     record = run.record
     parameters: dict[str, Any] = dict(record.experiment.parameters())
     weight = parameters["robot_weight"]
-    felt, _ = load.normalise(record.plant["grf"], weight, parameters["F_max"])
-    ground = record.plant["foot_force"][..., 2] * (2.0 / weight)
+    felt, _ = load.normalise(record.signals["grf"], weight, parameters["F_max"])
+    ground = record.signals["foot_force"][..., 2] * (2.0 / weight)
     faulty = broken(record)
     look = {"showlegend": False}
 
@@ -91,7 +91,7 @@ def _loads(run: Run) -> Figure:
             run.line(stuck, "F, broken sensor", theme.VERMILLION, width=2.6, **look),
         ]
 
-    rows = [("MI [1]", [run.line(record.controller["MI"], "MI", theme.INK, **look)])]
+    rows = [("MI [1]", [run.line(record.signals["MI"], "MI", theme.INK, **look)])]
     rows += [
         (f"<b>{leg}</b> F [1]", lines(i, colour))
         for i, (leg, colour) in enumerate(run.colours.items())

@@ -73,7 +73,7 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Row:
         ``gamma_before``, ``gamma_after``: mean gain of all legs in the two seconds before that and
         in the last two of S1 [1], None unless they switched on between these.
     """
-    c, time, n_legs = record.controller, record.time, len(record.legs)
+    c, time, n_legs = record.signals, record.time, len(record.legs)
     gait = metrics.default_target(n_legs)
     if gait is None:
         raise ValueError(f"no gait is known for {n_legs} legs")
@@ -93,12 +93,12 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Row:
     s1, s2 = part(when.lowered, when.broken), part(when.broken, when.stopped)
     s3, late_s2 = part(when.restarted, when.end), part(when.broken + SETTLING, when.stopped)
     touch = metrics.touch_moment(
-        record.plant["foot_force"][s1, :, 2], record.mass * metrics.GRAVITY
+        record.signals["foot_force"][s1, :, 2], record.mass * metrics.GRAVITY
     )
     formation, recovery = converged(s1, touch), converged(s3, 0)
     front = [leg for leg, name in enumerate(record.legs) if name.endswith("F")]
     moved = np.ptp(c["o1"][late_s2][:, front], axis=0)
-    speed = metrics.smoothed_speed(time, record.plant["position"], record.plant["rpy"][:, 2])
+    speed = metrics.smoothed_speed(time, record.signals["position"], record.signals["rpy"][:, 2])
     ends = {"speed_s1": when.broken, "speed_s2": when.stopped, "speed_s3": when.end}
     stored = time[c["kappa"] > 0.0]
     return {
@@ -118,7 +118,7 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Row:
 def _gamma(record: Record, stored: float, when: Timeline) -> Row:
     if not when.lowered + AROUND <= stored <= when.broken - AROUND:
         return {"gamma_before": None, "gamma_after": None}
-    gamma, time = record.controller["gamma"], record.time
+    gamma, time = record.signals["gamma"], record.time
 
     def mean(end: float) -> float:
         return float(gamma[(time >= end - AROUND) & (time < end)].mean())

@@ -31,8 +31,8 @@ def measure(record: Record) -> Row:
     turning = isinstance(record.experiment.turn, tuple)
     steps = steps_of(record.experiment.turn if turning else record.experiment.mi)
     starts = [start for start, _ in steps]
-    yaw = np.unwrap(record.plant["rpy"][:, 2])
-    place = record.plant["position"]
+    yaw = np.unwrap(record.signals["rpy"][:, 2])
+    place = record.signals["position"]
     found: Row = {}
     for i, end in enumerate([*starts[1:], record.experiment.duration]):
         begin, name = starts[i] + SETTLING, f"{YAW_RATE if turning else SPEED}_{i + 1}"

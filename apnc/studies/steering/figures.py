@@ -55,14 +55,14 @@ def scenes(robot: Robot) -> list[Figure]:
 
 def speeds_over_time(record: Record) -> Figure:
     """MI, speed, way and stride frequency over the course of speeds."""
-    run, plant, time = Run(record, summarise(record)), record.plant, record.time
+    run, plant, time = Run(record, summarise(record)), record.signals, record.time
     (velocity_x, velocity_y, _), yaw = plant["velocity"].T, plant["rpy"][:, 2]
     ahead = velocity_x * np.cos(yaw) + velocity_y * np.sin(yaw)
     slow = metrics.smoothed_speed(time, plant["position"], yaw)
     steps = np.diff(metrics.smooth(plant["position"][:, :2]), axis=0)
     way = np.append(0.0, np.cumsum(np.linalg.norm(steps, axis=1)))
     rows = [
-        ("MI [1]", [_command(run, record.controller["MI"])]),
+        ("MI [1]", [_command(run, record.signals["MI"])]),
         ("speed [m/s]", [
             run.line(ahead, "at every moment", theme.SKY, width=0.7),
             run.line(slow, "smoothed over 1.5 s", theme.BLUE, width=2.2),
@@ -83,11 +83,11 @@ def speeds_over_time(record: Record) -> Figure:
 def turns_over_time(record: Record) -> Figure:
     """Steering, hip commands of the front legs, yaw and yaw rate over the course of turns."""
     run, time = Run(record, summarise(record)), record.time
-    yaw = np.unwrap(record.plant["rpy"][:, 2])
-    hips = np.degrees(record.controller["theta_hip"]).T
+    yaw = np.unwrap(record.signals["rpy"][:, 2])
+    hips = np.degrees(record.signals["theta_hip"]).T
     front = {leg: hip for leg, hip in zip(record.legs, hips, strict=True) if leg.endswith("F")}
     rows = [
-        ("turn [1]", [_command(run, record.controller["turn"])]),
+        ("turn [1]", [_command(run, record.signals["turn"])]),
         *(
             (f"hip {leg} [°]", [run.line(hip, leg, run.colours[leg], width=0.9)])
             for leg, hip in front.items()
@@ -110,7 +110,7 @@ def turns_over_time(record: Record) -> Figure:
 
 def path(record: Record) -> Figure:
     """Path of the trunk from above along the course of turns, a colour per section."""
-    at = metrics.smooth(record.plant["position"][:, :2])
+    at = metrics.smooth(record.signals["position"][:, :2])
     traces: list[Trace] = []
     sections = _sections(record, record.experiment.turn, WAYS)
     for i, (begin, end, name) in enumerate(sections):
@@ -145,7 +145,7 @@ def _command(run: Run, values: Array) -> Trace:
 
 def _frequencies(run: Run) -> list[Trace]:
     """Stride frequency of every leg, a point per cycle of its oscillator, drawn at its middle."""
-    record, c = run.record, run.record.controller
+    record, c = run.record, run.record.signals
     traces = []
     for starts, (leg, colour) in zip(
         metrics.cycle_starts(c["o1"], c["o2"]), run.colours.items(), strict=True

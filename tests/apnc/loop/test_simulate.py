@@ -101,12 +101,12 @@ def test_stop_ends_the_run_before_the_next_tick() -> None:
     assert (record.end, len(record)) == (End.interrupted, 7)
 
 
-def test_a_run_of_no_tick_has_channels_of_no_rows() -> None:
+def test_a_run_of_no_tick_has_signals_without_samples() -> None:
     record = simulate(Experiment(duration=1), plant=Noting(), stop=lambda: True)
     assert (record.end, len(record), record.ended_at) == (End.interrupted, 0, 0.0)
     assert record.signals["o1"].shape == (0, 4)
     assert record.signals["phi"].shape == (0, 3)
-    assert record.signals["grf"].shape == (0, 1)
+    assert record.signals["grf"].shape == (0, 4)
 
 
 def test_a_run_of_years_begins_at_once() -> None:

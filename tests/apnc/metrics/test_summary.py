@@ -32,10 +32,8 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 
 def with_signals(record: Record, **signals: np.ndarray) -> Record:
-    """The record with other signals, of the plant or the controller."""
-    plant = {name: signals.get(name, values) for name, values in record.signals.items()}
-    controller = {name: signals.get(name, values) for name, values in record.signals.items()}
-    return replace(record, plant=plant, controller=controller)
+    """The record with other signals."""
+    return replace(record, signals={**record.signals, **signals})
 
 
 def moving_on(record: Record, forward: np.ndarray, left: np.ndarray, yaw: np.ndarray) -> Record:
@@ -295,13 +293,8 @@ def test_other_numbers_of_legs(legs: tuple[str, ...], target: tuple[float, ...],
 
 def test_legs_without_a_known_gait() -> None:
     walk = synthetic_record(10.0)
-    plant = {
-        k: v[:, :3] if k.startswith(("foot", "joint", "grf")) else v for k, v in walk.signals.items()
-    }
-    controller = {
-        k: v[:, :3] if v.ndim > 1 and v.shape[1] == 4 else v for k, v in walk.signals.items()
-    }
-    s = summarise(replace(walk, legs=("RF", "RH", "L"), plant=plant, controller=controller))
+    signals = {k: v[:, :3] if v.ndim > 1 else v for k, v in walk.signals.items()}
+    s = summarise(replace(walk, legs=("RF", "RH", "L"), signals=signals))
     assert (s.converged, s.phi_target, s.gait) == (None, None, None)
     assert (s.convergence_time_s, s.convergence_time_authors_s) == (None, None)
     assert s.largest_late_error_rad is None
@@ -332,7 +325,7 @@ def test_nothing_is_measured_of_a_diverged_run() -> None:
 @pytest.mark.parametrize("signal", ["position", "foot_force", "joint_work", "o1", "o2"])
 def test_nothing_is_measured_of_values_that_are_not_finite(signal: str, value: float) -> None:
     walk = synthetic_record(5.0)
-    broken = {**walk.signals, **walk.signals}[signal].copy()
+    broken = walk.signals[signal].copy()
     broken.flat[100] = value
     s = summarise(with_signals(walk, **{signal: broken}))
     assert {name for name, entry in figures(s).items() if not is_empty(entry)} == set()
@@ -398,10 +391,10 @@ def test_a_fall_at_once_is_no_walk_to_measure(duration: float, measured: bool) -
 @pytest.mark.parametrize(
     "laid_out", [np.asfortranarray, lambda values: np.stack([values] * 8, axis=-1)[..., 3]]
 )
-def test_channels_may_lie_in_memory_in_any_order(
+def test_signals_may_lie_in_memory_in_any_order(
     laid_out: Callable[[np.ndarray], np.ndarray],
 ) -> None:
     walk = synthetic_record(10.0, formation=(1.0, 3.0))
-    signals = {name: laid_out(v) for name, v in {**walk.signals, **walk.signals}.items()}
+    signals = {name: laid_out(v) for name, v in walk.signals.items()}
     assert not signals["o1"].flags.c_contiguous
     assert summarise(with_signals(walk, **signals)) == summarise(walk)

@@ -17,6 +17,7 @@ from apnc.report.panels import Run
 from apnc.summary import summarise
 from apnc_core.types import Array
 from apnc_plant.ground import Ground, Kerb, Obstacles, Plane
+from apnc_plant.signals import PLANT_SIGNALS
 
 PHASES = (0.5, 1.5, 2.5)
 
@@ -24,21 +25,13 @@ PHASES = (0.5, 1.5, 2.5)
 def distinct(record: Record) -> Record:
     """The record with other numbers in every signal and column."""
     random = np.random.default_rng(1)
-    plant = {
-        name: values + random.uniform(1.0, 2.0, values.shape)
-        for name, values in record.signals.items()
-        if name not in ("position", "rpy", "foot_position")
-    }
-    controller = {
-        name: values + random.uniform(0.0, 0.1, values.shape)
-        for name, values in record.signals.items()
-        if name not in ("o1", "o2", "phi")
-    }
-    return replace(
-        record,
-        plant={**record.signals, **plant},
-        controller={**record.signals, **controller},
-    )
+    of_plant = {signal.name for signal in PLANT_SIGNALS}
+    others = {}
+    for name, values in record.signals.items():
+        if name not in ("position", "rpy", "foot_position", "o1", "o2", "phi"):
+            low, high = (1.0, 2.0) if name in of_plant else (0.0, 0.1)
+            others[name] = values + random.uniform(low, high, values.shape)
+    return replace(record, signals={**record.signals, **others})
 
 
 RECORD = distinct(synthetic_record(10.0, PHASES, yaw=0.7))
@@ -63,8 +56,7 @@ def lines(figure: Figure) -> list[dict[str, Any]]:
 
 
 def columns(signal: str, at: Any = ...) -> Array:
-    source = RECORD.signals if signal in RECORD.signals else RECORD.signals
-    return source[signal][at]
+    return RECORD.signals[signal][at]
 
 
 ROWS: dict[str, tuple[str, dict[str, Array]]] = {
@@ -95,7 +87,7 @@ ROWS: dict[str, tuple[str, dict[str, Array]]] = {
 
 
 @pytest.mark.parametrize("key", ROWS)
-def test_rows_per_leg_show_the_channels_they_name(key: str) -> None:
+def test_rows_per_leg_show_the_signals_they_name(key: str) -> None:
     unit, series = ROWS[key]
     figure = drawn(key)
     found = {(axis_of(figure, t), t["name"]): t for t in lines(figure)}

@@ -51,28 +51,25 @@ def test_a_run_is_three_files_that_say_what_was_run(tmp_path: Path) -> None:
 
 def test_every_column_holds_what_its_name_says(tmp_path: Path) -> None:
     made_up, random = synthetic_record(0.5), np.random.default_rng(1)
-    plant, controller = (
-        {name: random.random(values.shape) for name, values in signals.items()}
-        for signals in (made_up.signals, made_up.signals)
-    )
-    write_run(replace(made_up, plant=plant, controller=controller), tmp_path)
+    signals = {name: random.random(values.shape) for name, values in made_up.signals.items()}
+    write_run(replace(made_up, signals=signals), tmp_path)
     with (tmp_path / "record.csv").open(newline="") as file:
         header, *rows = csv.reader(file)
     found = dict(zip(header, np.array(rows, float).T, strict=True))
-    expected = {"time": made_up.time, "d": controller["d"], "MI": controller["MI"]}
+    expected = {"time": made_up.time, "d": signals["d"], "MI": signals["MI"]}
     for k, relation in enumerate(("12", "13", "14")):
-        expected[f"phi{relation}"] = controller["phi"][:, k]
-        expected[f"phi_memory{relation}"] = controller["phi_memory"][:, k]
+        expected[f"phi{relation}"] = signals["phi"][:, k]
+        expected[f"phi_memory{relation}"] = signals["phi_memory"][:, k]
     for k, leg in enumerate(("RF", "RH", "LF", "LH")):
-        expected[f"{leg}.o1"] = controller["o1"][:, k]
-        expected[f"{leg}.grf"] = plant["grf"][:, k]
+        expected[f"{leg}.o1"] = signals["o1"][:, k]
+        expected[f"{leg}.grf"] = signals["grf"][:, k]
         for j, joint in enumerate(("abduction", "hip", "knee")):
-            expected[f"{leg}.joint_angle.{joint}"] = plant["joint_angle"][:, k, j]
+            expected[f"{leg}.joint_angle.{joint}"] = signals["joint_angle"][:, k, j]
         for j, axis in enumerate("xyz"):
-            expected[f"{leg}.foot_force.{axis}"] = plant["foot_force"][:, k, j]
+            expected[f"{leg}.foot_force.{axis}"] = signals["foot_force"][:, k, j]
     for j, (axis, turn) in enumerate(zip("xyz", ("roll", "pitch", "yaw"), strict=True)):
-        expected[f"position.{axis}"] = plant["position"][:, j]
-        expected[f"rpy.{turn}"] = plant["rpy"][:, j]
+        expected[f"position.{axis}"] = signals["position"][:, j]
+        expected[f"rpy.{turn}"] = signals["rpy"][:, j]
     for name, values in expected.items():
         assert np.allclose(found[name], values, rtol=1e-8, atol=0.0), name
 

@@ -207,7 +207,7 @@ def test_the_end_of_a_diverged_motion_is_not_drawn_and_that_is_said() -> None:
     record = diverged(5.0, 20)
     shown = drawable(record)
     assert len(shown) == len(record) - 20
-    assert all(len(v) == len(shown) for v in (*shown.signals.values(), *shown.signals.values()))
+    assert all(len(v) == len(shown) for v in shown.signals.values())
     assert "From 4.67 s on the motion has no scale" in render(record, summarise(record))
     # A sound run keeps all, whatever the numbers are.
     assert len(drawable(replace(record, end=End.complete))) == len(record)

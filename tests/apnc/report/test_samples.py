@@ -62,8 +62,7 @@ def test_the_report_of_an_hour_is_small_and_says_that_it_is_thinned() -> None:
     hour = replace(
         minute,
         time=np.arange(60 * len(minute)) / 60.0,
-        plant={k: np.concatenate([v] * 60) for k, v in minute.signals.items()},
-        controller={k: np.concatenate([v] * 60) for k, v in minute.signals.items()},
+        signals={k: np.concatenate([v] * 60) for k, v in minute.signals.items()},
     )
     text = render(hour, summarise(hour))
     assert len(text) < 30e6

@@ -81,8 +81,8 @@ def test_a_straight_walk_turns_little_in_the_median_and_in_every_run() -> None:
     assert turn(f=lambda mi, seed: None) == NO
 
 
-def changed(record: Record, **plant: Any) -> Record:
-    return replace(record, plant=record.signals | plant)
+def changed(record: Record, **signals: Any) -> Record:
+    return replace(record, signals={**record.signals, **signals})
 
 
 def test_figures_of_a_walk_on_clean_feet() -> None:

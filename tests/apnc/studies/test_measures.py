@@ -50,8 +50,13 @@ def states_record(
     return replace(
         base,
         experiment=experiment,
-        plant={**base.signals, "position": position},
-        controller={**base.signals, "o1": o1, "o2": o2, "kappa": 1.0 * (t >= stored)},
+        signals={
+            **base.signals,
+            "position": position,
+            "o1": o1,
+            "o2": o2,
+            "kappa": 1.0 * (t >= stored),
+        },
     )
 
 
@@ -101,14 +106,14 @@ def test_front_oscillators_may_stop_anywhere() -> None:
     record = states_record(stops=[(16.0, 20.0, 0), (16.0, 20.0, 2)])
     o1 = record.signals["o1"].copy()
     o1[(record.time >= 16.0) & (record.time < 20.0), 2] = -0.8
-    assert judge(replace(record, controller={**record.signals, "o1": o1}))["front_stopped"]
+    assert judge(replace(record, signals={**record.signals, "o1": o1}))["front_stopped"]
 
 
 def test_a_touch_bears_a_fifth_of_the_weight() -> None:
     record = states_record(((0.0, PRONK), (5.0, TROT)))
     force = record.signals["foot_force"].copy()
     force[record.time < 4.0] *= 0.05
-    light = replace(record, plant={**record.signals, "foot_force": force})
+    light = replace(record, signals={**record.signals, "foot_force": force})
     later = judge(record)["formation_time_s"] - judge(light)["formation_time_s"]
     assert later == pytest.approx(4.0 - 1.7, abs=0.3)
 
@@ -135,7 +140,7 @@ def test_gamma_is_the_mean_before_the_couplings_and_at_the_end_of_s1() -> None:
     t = record.time
     by_time = np.select([t < 4, t < 6, t < 12, t < 14], [9.0, 0.3, 9.0, 0.1], 9.0)
     gamma = by_time[:, None] * np.array([0.0, 1.0, 1.0, 2.0])
-    found = judge(replace(record, controller={**record.signals, "gamma": gamma}))
+    found = judge(replace(record, signals={**record.signals, "gamma": gamma}))
     assert (found["gamma_before"], found["gamma_after"]) == pytest.approx((0.3, 0.1))
 
 
@@ -219,11 +224,11 @@ def test_a_robot_may_stand_from_the_start() -> None:
 # --- courses -----------------------------------------------------------------------------------
 
 
-def on_course(course: str, plant: dict[str, Any], ended: float = 60.0) -> Record:
+def on_course(course: str, signals: dict[str, Any], ended: float = 60.0) -> Record:
     base = synthetic_record(ended)
     experiment = steering.experiment(course)
     end = End.complete if ended == 60.0 else End.fell
-    return replace(base, experiment=experiment, plant={**base.signals, **plant}, end=end)
+    return replace(base, experiment=experiment, signals={**base.signals, **signals}, end=end)
 
 
 def test_yaw_rate_is_that_of_each_section_after_five_seconds() -> None:
@@ -283,7 +288,7 @@ def test_an_oscillator_that_hardly_moves_at_the_end_has_stopped() -> None:
     late = base.time >= 16.0
     o1 = base.signals["o1"].copy()
     o1[late, 0], o1[late, 2] = 0.5, 0.1 * o1[late, 2]
-    record = replace(base, controller={**base.signals, "o1": o1})
+    record = replace(base, signals={**base.signals, "o1": o1})
     assert gains.measure(base) == {gains.STILL: 0}
     assert gains.measure(record) == {gains.STILL: 2}
     o1[base.time >= 18.5, 0] = -0.5  # moves within the last three seconds

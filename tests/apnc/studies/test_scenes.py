@@ -67,8 +67,7 @@ def through_the_states() -> Record:
     return replace(
         base,
         experiment=TIMELINE.experiment("apnc", 0),
-        plant={**base.signals, "grf": grf},
-        controller={**base.signals, "MI": mi},
+        signals={**base.signals, "grf": grf, "MI": mi},
     )
 
 
@@ -99,12 +98,12 @@ def test_no_sensor_of_a_sound_robot_is_broken() -> None:
 # --- courses -----------------------------------------------------------------------------------
 
 
-def on_course(course: str, **plant: Array) -> Record:
+def on_course(course: str, **signals: Array) -> Record:
     base = synthetic_record(60.0, frequency=1.5, speed=0.08)
     asked = experiment(course)
     commands = {name: _over(base.time, getattr(asked, name)) for name in ("mi", "turn")}
-    controller = {**base.signals, "MI": commands["mi"], "turn": commands["turn"]}
-    return replace(base, experiment=asked, plant={**base.signals, **plant}, controller=controller)
+    told = {"MI": commands["mi"], "turn": commands["turn"]}
+    return replace(base, experiment=asked, signals={**base.signals, **told, **signals})
 
 
 def _over(time: Array, command: Any) -> Array:

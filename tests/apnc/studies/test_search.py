@@ -295,7 +295,7 @@ def walk(phases: Sequence[float] = TROT, speed: float = 0.1) -> Record:
 
 
 def on_feet(record: Record, feet: Array) -> Record:
-    return replace(record, plant={**record.signals, "foot_position": feet})
+    return replace(record, signals={**record.signals, "foot_position": feet})
 
 
 def test_an_exact_straight_trot_on_clean_feet_costs_nothing() -> None:
@@ -339,7 +339,7 @@ def test_a_curve_costs_by_its_rate_to_either_side() -> None:
     for sign in (1.0, -1.0):
         rpy = record.signals["rpy"].copy()
         rpy[:, 2] = sign * 3.0 * WANTED_TURN * record.time
-        turned = replace(record, plant={**record.signals, "rpy": rpy})
+        turned = replace(record, signals={**record.signals, "rpy": rpy})
         added = feet_cost(turned) - feet_cost(record)
         assert added == pytest.approx(0.35 * np.log(4.0), abs=0.02)
 
@@ -359,7 +359,7 @@ def test_stopped_oscillators_cost_half_each() -> None:
     record = walk()
     o1 = record.signals["o1"].copy()
     o1[:, :2] = 0.3
-    stopped = replace(record, controller={**record.signals, "o1": o1})
+    stopped = replace(record, signals={**record.signals, "o1": o1})
     assert damage_cost(stopped) - damage_cost(record) == pytest.approx(1.0)
 
 
@@ -377,7 +377,7 @@ def test_slow_and_unlike_turns_cost(left: float, right: float, cost: float) -> N
     rate = np.where(record.time < 7.5, left, -right) * WANTED_STEERING
     rpy = record.signals["rpy"].copy()
     rpy[:, 2] = np.cumsum(rate) / 60.0
-    turned = replace(record, plant={**record.signals, "rpy": rpy})
+    turned = replace(record, signals={**record.signals, "rpy": rpy})
     assert steering_cost(turned) == pytest.approx(cost, abs=0.02)
 
 

@@ -28,11 +28,11 @@ from apnc.system.plant_fmu import PlantBuild, plant_fmu, plant_model
 from apnc_core.schema import Causality, Type
 from apnc_core.variables import scalars
 from apnc_plant import generate
-from apnc_plant.signals import PLANT_SIGNALS
 from apnc_plant.compiled import Plant
 from apnc_plant.conditions import CONDITIONS
 from apnc_plant.ground import Obstacles, Plane
 from apnc_plant.robot import ROBOTS, load_robot
+from apnc_plant.signals import PLANT_SIGNALS
 from apnc_plant.variables import COMMANDS, TABLE, Condition
 from build_fmu.platforms import host_platform
 
@@ -78,7 +78,7 @@ def test_its_names_and_units_are_those_of_the_controller(robot: str, naming: str
         assert all(re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) for name in shown)
 
 
-def test_every_channel_of_a_record_is_an_output() -> None:
+def test_every_signal_of_the_plant_in_a_record_is_an_output() -> None:
     outputs = [v.name for v in TABLE if v.causality is Causality.output]
     columns = [column for signal in PLANT_SIGNALS for column in replace(
         signal, per_leg=False).columns(())]  # fmt: skip

@@ -22,7 +22,7 @@ class PlantError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Channel:
+class Signal:
     """One quantity.
 
     Args:
@@ -60,9 +60,9 @@ _RPY: Final = "positive roll: right side down; pitch: nose down; yaw: to the lef
 _SIGNS: Final = "; ".join(f"{joint}: {effect}" for joint, effect in JOINT_SIGNS.items())
 _JOINT: Final = f"0 in the reference pose; positive {_SIGNS}"
 
-PLANT_CHANNELS: Final[tuple[Channel, ...]] = (
-    Channel("position", "m", "trunk reference point", WORLD, False, XYZ),
-    Channel(
+PLANT_SIGNALS: Final[tuple[Signal, ...]] = (
+    Signal("position", "m", "trunk reference point", WORLD, False, XYZ),
+    Signal(
         "rpy",
         "rad",
         "roll, pitch and yaw of the trunk",
@@ -71,11 +71,11 @@ PLANT_CHANNELS: Final[tuple[Channel, ...]] = (
         ("roll", "pitch", "yaw"),
         _RPY,
     ),
-    Channel("velocity", "m/s", "velocity of the trunk reference point", WORLD, False, XYZ),
-    Channel("joint_angle", "rad", "angle of the joint", "joint", True, JOINTS, _JOINT),
-    Channel("joint_speed", "rad/s", "speed of the joint", "joint", True, JOINTS, _JOINT),
-    Channel("joint_torque", "N.m", "torque of the servo", "joint", True, JOINTS, _JOINT),
-    Channel(
+    Signal("velocity", "m/s", "velocity of the trunk reference point", WORLD, False, XYZ),
+    Signal("joint_angle", "rad", "angle of the joint", "joint", True, JOINTS, _JOINT),
+    Signal("joint_speed", "rad/s", "speed of the joint", "joint", True, JOINTS, _JOINT),
+    Signal("joint_torque", "N.m", "torque of the servo", "joint", True, JOINTS, _JOINT),
+    Signal(
         "joint_work",
         "J",
         "|torque times speed| of the servo over time since the start",
@@ -84,9 +84,9 @@ PLANT_CHANNELS: Final[tuple[Channel, ...]] = (
         JOINTS,
         "never decreases",
     ),
-    Channel("foot_position", "m", "centre of the foot ball", WORLD, True, XYZ),
-    Channel("foot_force", "N", "force of the ground on the foot", WORLD, True, XYZ),
-    Channel(
+    Signal("foot_position", "m", "centre of the foot ball", WORLD, True, XYZ),
+    Signal("foot_force", "N", "force of the ground on the foot", WORLD, True, XYZ),
+    Signal(
         "grf",
         "N",
         "load the foot sensor delivers to the controller",
@@ -94,4 +94,4 @@ PLANT_CHANNELS: Final[tuple[Channel, ...]] = (
         sign="positive: the foot presses; never negative",
     ),
 )
-"""Every channel of a plant, in the order of a record."""
+"""Every signal of a plant, in the order of a record."""
