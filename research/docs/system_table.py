@@ -1,4 +1,4 @@
-"""Measure ``docs/data/system_model.csv`` and write the tables of ``docs/system_model.md``.
+"""Measure ``docs/data/system_model.csv`` and write the tables of ``docs/system_model/delays.md``.
 
 ``nice python -m research.docs.system_table [measure]``: without the word the tables are written
 from the file. Every tool that is installed walks five seeds at three MI, and a loop with the delays
@@ -39,7 +39,7 @@ from coupled_loop import walk  # noqa: E402  # it lies with the tests
 HOSTS: Final = SUPPORT / "system_hosts.py"
 HOST_IN_C: Final = ROOT / "examples" / "host" / "host.c"
 DATA: Final = DOCS / "data" / "system_model.csv"
-PAGE: Final = DOCS / "system_model.md"
+PAGE: Final = DOCS / "system_model" / "delays.md"
 
 MIS: Final = (0.08, 0.15, 0.24)
 TOOLS_SEEDS: Final = range(5)
