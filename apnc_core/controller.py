@@ -31,8 +31,8 @@ from apnc_core.variables import variable_named
 class Circuits:
     """State of the legs' circuits, arrays of shape (n,); all legs start alike.
 
-    ``theta_before`` is the command that the forward model copies, at n - 1 [rad]; ``learned`` what
-    its kernels have learned, shape (n, KERNELS).
+    ``theta_before`` is the command at n - 1 [rad] that the forward model takes. ``learned`` is the
+    change of its kernels' weights since the start, shape (n, KERNELS).
     """
 
     o1: Array
@@ -46,7 +46,7 @@ class Circuits:
 
     @classmethod
     def start(cls, n_legs: int, p: Parameters) -> Circuits:
-        """Start state. A robot that already stands does not count as touching down."""
+        """Start state; a robot that already stands does not touch down in the first tick."""
 
         def alike(value: float) -> Array:
             return np.full(n_legs, value)
@@ -65,7 +65,7 @@ class Circuits:
 
 @dataclass
 class Memory:
-    """What the neural couplings hold: the stored relations [rad] and whether there are any."""
+    """The stored gait: relative phases phi_1k [rad], and whether one is stored."""
 
     phi: Array
     on: bool = False

@@ -1,8 +1,8 @@
 """Elementary functions by polynomials, with the operations of ``fmu_src/core/elementary.h``.
 
-They are evaluated in the same order, so the reference and the FMU agree bit for bit, and so do the
-FMU's binaries for all platforms; the C libraries' functions differ in the last bits. Coefficients
-are minimax fits in z = x^2, made for this project.
+C and Python evaluate them in the same order. So the reference and the FMU agree bit for bit, and so
+do the FMU's binaries for all platforms. The functions of the C libraries differ in the last bits.
+The coefficients are minimax fits in z = x^2, made for this project.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from apnc_core.types import Array
 
 TO_WHOLE: Final = 1.5 * 2.0**52
-"""Adding and subtracting it leaves the nearest integer."""
+"""Adding and then subtracting it rounds to the nearest integer."""
 
 TAN_PI_8: Final = 0.41421356237309503
 

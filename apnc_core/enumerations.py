@@ -8,7 +8,7 @@ from typing import Final
 
 
 class Method(IntEnum):
-    """Which controller runs."""
+    """Controller that runs."""
 
     apnc = 1
     apc = 2
@@ -17,7 +17,7 @@ class Method(IntEnum):
 
 
 class ForwardModel(IntEnum):
-    """What the expected load is made of."""
+    """How the expected load is computed."""
 
     low_pass_hip = 1
     low_pass_knee = 2
@@ -71,7 +71,7 @@ ENUMERATIONS: Final[tuple[Enumeration, ...]] = (
     Enumeration(
         ForwardModel,
         (
-            "low-passed stance of the hip command, Eq. 10-11 as printed",
+            "low-pass filter of the stance of the hip command, Eq. 10-11 as printed",
             "Eq. 10-11 with the knee command, as the text of section 2.1.2 has it",
             "radial basis functions of (o1, o2) that learn the load",
         ),
@@ -79,14 +79,14 @@ ENUMERATIONS: Final[tuple[Enumeration, ...]] = (
     Enumeration(
         PhaseMeasure,
         (
-            "low-passed angle between the vectors (o1, o2) of two legs",
+            "angle between the vectors (o1, o2) of two legs, low-pass filtered",
             "times of the peaks of o1, Eq. 12",
         ),
     ),
     Enumeration(
         KappaRule,
         (
-            "armed once d has exceeded sigma, on after kappa_hold ticks at or below it, then kept",
+            "on after d has exceeded sigma and then stayed at or below it for kappa_hold ticks",
             "Eq. 16 as printed: on whenever d is at or below sigma",
         ),
     ),

@@ -1,4 +1,4 @@
-"""Forward model: the load that the leg's own motion lets it expect (Eq. 10-11)."""
+"""Forward model: predicts the load of a foot from the leg's own command (Eq. 10-11)."""
 
 from __future__ import annotations
 
@@ -85,6 +85,6 @@ def expect_learned(
 
 
 def _kernel(d1: Array, d2: Array) -> Array:
-    """exp(-(d1^2 + d2^2) / KERNEL_WIDTH), by tanh: off by 2e-16, which a weighted sum forgives."""
+    """exp(-(d1^2 + d2^2) / KERNEL_WIDTH), by tanh; the absolute error is 2e-16."""
     t = tanh((d1 * d1 + d2 * d2) * (0.5 / KERNEL_WIDTH))
     return (1.0 - t) / (1.0 + t)

@@ -1,4 +1,4 @@
-"""Values as they are given, in Python's own types: done once, where a value comes in."""
+"""Converts values to Python's own types, once, where they enter the package."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ _OWN: Final = frozenset((float, int, bool, str, type(None)))
 
 
 def in_python(value: object) -> Any:
-    """A value with numbers and arrays of numpy as Python's own, and a path as text.
+    """The value with numbers and arrays of numpy in Python's own types and paths as text.
 
     Args:
-        value: anything; a list or tuple is gone through, what is no number, array or path stays.
+        value: anything. The entries of a list or tuple are converted too; what is no number, array
+            or path is returned as it is.
 
-    What it gives can be written as JSON, and is equal to what was given.
+    The result can be written as JSON and is equal to the value.
     """
     if type(value) in _OWN or isinstance(value, Enum):
         return value

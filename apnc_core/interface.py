@@ -21,9 +21,9 @@ class Parameters:
     Attributes:
         Ts: time between two ticks of the controller ([s]).
         robot_weight: weight of the robot; half of it normalises the load ([N], Eq. 5).
-        F_max: largest load over half the weight that the circuits see; a higher one, as in an
-            impact or under a payload, counts as this (Eq. 5).
-        method: which controller runs.
+        F_max: limit of the load over half the weight; a higher load, as in an impact or under a
+            payload, counts as this value (Eq. 5).
+        method: controller that runs.
         w11: self-weight of both neurons, w11 = w22 (Eq. 3).
         w12_0: cross-weight at MI = 0: w12 = w12_0 + MI, w21 = -w12 (Eq. 3).
         bias: bias added to both activations; the paper has none (Eq. 1).
@@ -40,27 +40,28 @@ class Parameters:
         B_s: learning rate of the slow learner (Eq. 8).
         alpha: scale of the expected load (Eq. 10).
         rho: shape of the expected load (Eq. 10).
-        forward_model: what the expected load is made of (Eq. 10, 11).
+        forward_model: how the expected load is computed (Eq. 10, 11).
         rbf_rate: learning rate of the radial-basis forward model (Eq. 10).
         phase_measure: how the relative phases are measured; the paper prints peak (Eq. 12).
-        phase_filter: new part per tick in the low-pass of the vector phase measure (Eq. 12).
+        phase_filter: share of the new value per tick in the low-pass filter of the vector phase
+            measure (Eq. 12).
         N: ticks in the mean of the relative phases (Eq. 14).
         sigma: threshold of d below which the phases count as stable ([rad], Eq. 16).
         kappa_rule: when the couplings switch on; the paper prints Eq. 16 (Eq. 16).
         kappa_hold: ticks that d stays at or below sigma before kappa switches on (Eq. 16).
         xi: gain of the neural communication (Eq. 17).
-        feedback_kept: share of the sensory feedback that stays while the couplings are on; 1 as in
-            the equations (Eq. 5).
+        feedback_kept: share of the sensory feedback that remains while the couplings are on; the
+            equations have 1 (Eq. 5).
         coupling_sign: sign of the coupling term; the paper prints plus (Eq. 18).
-        phi_frozen: true: the couplings hold the phases measured when kappa switched on; false: the
-            phases measured now, as Eq. 17 reads (Eq. 17).
-        MI_zero_resets: true: MI = 0 acts as reset; false: the oscillators run on at w12 = w12_0, as
-            Eq. 3 reads (Eq. 3).
-        stored: true: start with the relations phi_stored learned and the couplings on (Eq. 17).
-        phi_stored: phase relation phi_1k that a start with stored = true holds ([rad], n - 1
-            values, or empty for zeros, Eq. 17).
+        phi_frozen: true: the couplings use the phases measured when kappa switched on; false: the
+            phases measured now, as printed in Eq. 17 (Eq. 17).
+        MI_zero_resets: true: MI = 0 acts as reset; false: the oscillators keep running with w12 =
+            w12_0, as printed in Eq. 3 (Eq. 3).
+        stored: true: start with the stored gait phi_stored and the couplings on (Eq. 17).
+        phi_stored: stored gait at the start: relative phase phi_1k, used if stored is true ([rad],
+            n - 1 values, or empty for zeros, Eq. 17).
         gamma_tegotae: fixed feedback gain of the Tegotae baseline (Eq. 5).
-        grf_reset: load, over a quarter of the weight, that resets the phase when crossed upwards
+        grf_reset: load over a quarter of the weight at which a rising load resets the phase
             (phase-resetting baseline).
     """
 
@@ -108,13 +109,13 @@ class Inputs:
     """Inputs of one tick.
 
     Attributes:
-        grf: load on the foot; not finite, negative or above 1000 weights counts as zero and raises
-            fault ([N], shape (n,), Eq. 5).
+        grf: load on the foot; a value that is not finite, negative or above 1000 weights counts as
+            zero and raises fault ([N], shape (n,), Eq. 5).
         MI: modulatory input: sets the stepping frequency; limited to its range (Eq. 3).
         turn: steering, positive turns left: scales the amplitudes of the right legs up and of the
             left legs down; limited to its range (Eq. 4).
-        reset: while true, oscillators, learners and forward models are held at their start state;
-            the stored phase relations are kept.
+        reset: while true, oscillators, learners and forward models stay at their start state; the
+            stored gait is kept.
     """
 
     grf: Array
@@ -142,11 +143,11 @@ class Outputs:
         f2: sensory feedback to neuron N2 (shape (n,), Eq. 5).
         g1: neural coupling to neuron N1, as added to its activation (shape (n,), Eq. 17).
         g2: neural coupling to neuron N2, as added to its activation (shape (n,), Eq. 17).
-        fault: true while the load input of the leg is unusable (shape (n,)).
+        fault: true while the load input of the leg cannot be used (shape (n,)).
         phi: relative phase phi_1k of legs 1 and k = index + 1, in [-pi/2, 3 pi/2) ([rad], shape (n
             - 1,), Eq. 12).
-        phi_memory: phase relation phi_1k stored in the couplings; zero while there is none ([rad],
-            shape (n - 1,), Eq. 17).
+        phi_memory: stored gait that is held now: relative phase phi_1k; zero while no gait is
+            stored ([rad], shape (n - 1,), Eq. 17).
         d: distance of the relative phases from their mean ([rad], Eq. 15).
         kappa: 1 while the neural couplings are on, else 0 (Eq. 16).
         tick: number of ticks run since the start (Eq. 1).

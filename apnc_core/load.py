@@ -1,4 +1,4 @@
-"""Foot load as the circuits see it."""
+"""Load of a foot over half the weight, as the circuits receive it."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from apnc_core.types import Array
 
 MOST_WEIGHTS: Final = 1000.0
-"""A load above so many times the weight is no load: a sensor shows it when its wire breaks."""
+"""Loads above this many weights are faults, such as the reading of a sensor with a broken wire."""
 
 
 def normalise(grf: Array, robot_weight: float, F_max: float) -> tuple[Array, NDArray[np.bool_]]:
-    """Load over half the weight, F(n), and the legs whose sensor reports nonsense.
+    """Load over half the weight, F(n), and the legs whose load cannot be used.
 
     Args:
         grf: loads [N], shape (n,).

@@ -1,7 +1,7 @@
 """Acquisition of the phase relations phi_12, phi_13, ... (Eq. 12).
 
-phi_lk is positive when leg k leads leg l. Both measures keep an unwrapped phase, so that the
-mean of Eq. 14 is not torn where the angle wraps.
+phi_lk is positive when leg k leads leg l. The mean of Eq. 14 needs phases without jumps:
+``phase_estimation`` unwraps the angles that both measures give.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from apnc_core.types import Array
 
 @dataclass
 class VectorMeasure:
-    """Low-passed angle between the vectors (o1, o2) of leg 1 and of leg k.
+    """Angle between the vectors (o1, o2) of leg 1 and of leg k, low-pass filtered.
 
-    The complex products are low-passed, not their angles: the cycle is no circle, so the angle
-    swings within a period, and an angle cannot be averaged where it wraps.
+    The filter acts on the complex products, not on their angles. The cycle is not a circle, so the
+    angle oscillates within a period, and an angle cannot be averaged where it wraps.
     """
 
     n_legs: int
@@ -44,7 +44,7 @@ class VectorMeasure:
 
 @dataclass
 class PeakMeasure:
-    """Times between the peaks of o1 over the period of leg 1, the paper's letter.
+    """Times between the peaks of o1 over the period of leg 1, as the paper prints it.
 
     phi_1k = 2 pi (t_p^1 - t_p^k) / T (Eq. 12). Zero until leg 1 has shown two peaks and leg k
     one. Pitfall: resolves 2 pi / (ticks per period), 0.15 rad at 1.4 Hz and 60 Hz.

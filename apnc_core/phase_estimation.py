@@ -1,4 +1,4 @@
-"""Estimation of the phase relations: are they settled? (Eq. 13-16)."""
+"""Decides from the relative phases whether they have settled (Eq. 13-16)."""
 
 from __future__ import annotations
 

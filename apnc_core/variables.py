@@ -1,4 +1,4 @@
-"""The table of variables: the only place where a name, unit, range, default or source is written.
+"""The table of variables: names, units, ranges, defaults and sources are written here alone.
 
 modelDescription.xml, the C header and descriptor table, ``apnc_core/interface.py`` and the
 table in the documentation are generated from it (``python -m build_fmu.generate``).
@@ -55,8 +55,8 @@ _METHOD, _MODEL, _MEASURE, _RULE, _SIGN = ENUMERATIONS
 
 TABLE: Final[tuple[Variable, ...]] = (
     _input(
-        "grf", "F", "load on the foot; not finite, negative or above 1000 weights counts as zero "
-        "and raises fault",
+        "grf", "F", "load on the foot; a value that is not finite, negative or above 1000 weights "
+        "counts as zero and raises fault",
         shape=Shape.leg, start=0.0, unit="N", nominal=10.0, equation="5",
     ),
     _input(
@@ -69,8 +69,8 @@ TABLE: Final[tuple[Variable, ...]] = (
         start=0.0, unit="1", min=-1.0, max=1.0, nominal=1.0, equation="4",
     ),
     _input(
-        "reset", "", "while true, oscillators, learners and forward models are held at their start "
-        "state; the stored phase relations are kept",
+        "reset", "", "while true, oscillators, learners and forward models stay at their start "
+        "state; the stored gait is kept",
         type=Type.boolean, variability="discrete", start=False,
     ),
     _parameter(
@@ -84,13 +84,13 @@ TABLE: Final[tuple[Variable, ...]] = (
         source="Lilibot: 2.5 kg",
     ),
     _parameter(
-        "F_max", "", "largest load over half the weight that the circuits see; a higher one, as in "
-        "an impact or under a payload, counts as this",
+        "F_max", "", "limit of the load over half the weight; a higher load, as in an impact or "
+        "under a payload, counts as this value",
         start=1.0, unit="1", min=0.0, max=2000.0, nominal=1.0, equation="5",
         source="paper: loads are normalised to [0, 1)",
     ),
     _parameter(
-        "method", "", "which controller runs", type=Type.enumeration, enumeration=_METHOD,
+        "method", "", "controller that runs", type=Type.enumeration, enumeration=_METHOD,
         start=Method.apnc,
     ),
     _parameter(
@@ -167,7 +167,7 @@ TABLE: Final[tuple[Variable, ...]] = (
         start=0.99, unit="1", min=0.0, max=1.0, nominal=1.0, equation="10", source=_PAPER,
     ),
     _parameter(
-        "forward_model", "", "what the expected load is made of", type=Type.enumeration,
+        "forward_model", "", "how the expected load is computed", type=Type.enumeration,
         enumeration=_MODEL, variability="fixed", start=ForwardModel.low_pass_hip,
         equation="10, 11", source=_PAPER,
     ),
@@ -182,7 +182,8 @@ TABLE: Final[tuple[Variable, ...]] = (
         start=PhaseMeasure.vector, paper=PhaseMeasure.peak, equation="12", source="authors' code",
     ),
     _parameter(
-        "phase_filter", "", "new part per tick in the low-pass of the vector phase measure",
+        "phase_filter", "", "share of the new value per tick in the low-pass filter of the vector "
+        "phase measure",
         start=0.035, paper=0.05, unit="1", min=1e-4, max=1.0, nominal=0.1, equation="12",
         source="chosen, docs/decisions/phase-measure.md",
     ),
@@ -210,8 +211,8 @@ TABLE: Final[tuple[Variable, ...]] = (
         source=_PAPER,
     ),
     _parameter(
-        "feedback_kept", "", "share of the sensory feedback that stays while the couplings are on; "
-        "1 as in the equations",
+        "feedback_kept", "", "share of the sensory feedback that remains while the couplings are "
+        "on; the equations have 1",
         start=0.1, paper=1.0, unit="1", min=0.0, max=1.0, nominal=1.0, equation="5",
         source="sections 3.2.1 and 4.3 let gamma become small once the couplings are on",
     ),
@@ -221,21 +222,22 @@ TABLE: Final[tuple[Variable, ...]] = (
         paper=CouplingSign.printed, equation="18", source="authors' code",
     ),
     _parameter(
-        "phi_frozen", "", "true: the couplings hold the phases measured when kappa switched on; "
-        "false: the phases measured now, as Eq. 17 reads",
+        "phi_frozen", "", "true: the couplings use the phases measured when kappa switched on; "
+        "false: the phases measured now, as printed in Eq. 17",
         type=Type.boolean, start=True, paper=False, equation="17", source="authors' code",
     ),
     _parameter(
-        "MI_zero_resets", "", "true: MI = 0 acts as reset; false: the oscillators run on at "
-        "w12 = w12_0, as Eq. 3 reads",
+        "MI_zero_resets", "", "true: MI = 0 acts as reset; false: the oscillators keep running "
+        "with w12 = w12_0, as printed in Eq. 3",
         type=Type.boolean, start=True, paper=False, equation="3", source="authors' code",
     ),
     _parameter(
-        "stored", "", "true: start with the relations phi_stored learned and the couplings on",
+        "stored", "", "true: start with the stored gait phi_stored and the couplings on",
         type=Type.boolean, variability="fixed", start=False, equation="17",
     ),
     _parameter(
-        "phi_stored", "phi_1k", "phase relation phi_1k that a start with stored = true holds",
+        "phi_stored", "phi_1k", "stored gait at the start: relative phase phi_1k, used if "
+        "stored is true",
         shape=Shape.relation, variability="fixed", start=0.0, unit="rad", display_unit="deg",
         min=-7.0, max=7.0, nominal=1.0, equation="17",
     ),
@@ -244,8 +246,8 @@ TABLE: Final[tuple[Variable, ...]] = (
         start=0.03, unit="1", min=0.0, max=10.0, nominal=0.1, equation="5", source="authors' code",
     ),
     _parameter(
-        "grf_reset", "", "load, over a quarter of the weight, that resets the phase when crossed "
-        "upwards (phase-resetting baseline)",
+        "grf_reset", "", "load over a quarter of the weight at which a rising load resets the "
+        "phase (phase-resetting baseline)",
         start=0.4, unit="1", min=0.0, max=10.0, nominal=1.0, source="authors' code",
     ),
     _output(
@@ -292,7 +294,7 @@ TABLE: Final[tuple[Variable, ...]] = (
         unit="1", nominal=0.01, equation="17",
     ),
     _output(
-        "fault", "", "true while the load input of the leg is unusable",
+        "fault", "", "true while the load input of the leg cannot be used",
         type=Type.boolean, shape=Shape.leg,
     ),
     _output(
@@ -300,8 +302,8 @@ TABLE: Final[tuple[Variable, ...]] = (
         shape=Shape.relation, unit="rad", display_unit="deg", nominal=1.0, equation="12",
     ),
     _output(
-        "phi_memory", "phi_1k", "phase relation phi_1k stored in the couplings; zero while there "
-        "is none", shape=Shape.relation, unit="rad", display_unit="deg", nominal=1.0,
+        "phi_memory", "phi_1k", "stored gait that is held now: relative phase phi_1k; zero while "
+        "no gait is stored", shape=Shape.relation, unit="rad", display_unit="deg", nominal=1.0,
         initial_from=("stored", "phi_stored"), equation="17",
     ),
     _output("d", "d", "distance of the relative phases from their mean", unit="rad", nominal=0.1,

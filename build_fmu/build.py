@@ -1,4 +1,4 @@
-"""Build an FMU: describe, configure, compile, package; ready-made FMUs and a cache of builds."""
+"""Builds an FMU: description, configuration, libraries, zip file. Finished builds are cached."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import Final
 import apnc_core
 from build_fmu import sources
 from build_fmu.cache import cache_folder, write_atomically
-from build_fmu.compile import Progress, compile_library, compiler_version
+from build_fmu.compile import NO_COMPILER, Progress, compile_library, compiler_version
 from build_fmu.controller import controller_model
 from build_fmu.documentation import controller_documentation
 from build_fmu.model import Model
@@ -27,7 +27,7 @@ from build_fmu.platforms import MODEL, PLATFORMS, BuildError, host_platform, pla
 __all__ = ["build_key", "cache_folder", "cached_fmu", "fmu_bytes", "host_fmu", "write_atomically"]
 
 READY: Final = Path(__file__).parent / "ready"
-"""FMUs that came with the installed package, each named by the key of its build."""
+"""Folder of the FMUs that came with the package; each file is named by the key of its build."""
 
 
 def fmu_bytes(
@@ -35,7 +35,7 @@ def fmu_bytes(
     progress: Progress = lambda platform: None,
     files: dict[str, bytes] | None = None,
 ) -> bytes:
-    """The FMU as bytes, built anew.
+    """Bytes of the controller's FMU, built without the cache.
 
     Args:
         options: what to build.
@@ -63,10 +63,10 @@ def built(
     platforms: tuple[str, ...],
     progress: Progress = lambda platform: None,
 ) -> bytes:
-    """The FMU of any model as bytes.
+    """Bytes of the FMU of any model.
 
     Args:
-        model: what it shows.
+        model: what the FMU describes.
         files: C sources and headers by name.
         configured: gives the configuration headers for a guid.
         pages: other files by their path in the FMU.
@@ -77,7 +77,7 @@ def built(
         BuildError: the compiler failed.
     """
     c_files = sources.c_files(files)
-    # the guid stands for everything that the description and the binaries are made from
+    # the guid changes with everything that the description and the binaries depend on
     described = _describe(model, c_files, "")
     guid = sources.guid_of(described, *files.values(), *configured("").values())
     files = files | configured(guid)
@@ -105,12 +105,12 @@ def _describe(model: Model, c_files: list[str], guid: str) -> bytes:
 
 
 def build_key(options: BuildOptions) -> str:
-    """What a build is made from, but for the compiler and the headers of the standard: 16 digits.
+    """Key of a build, 16 digits: a hash of all it depends on but the compiler and FMI headers.
 
     Args:
         options: what to build.
 
-    An FMU that carries the key is true to the options and to this package's own sources.
+    A ready FMU with this key was built with these options from the sources of this package.
     """
     parts = [
         repr(options).encode(),
@@ -124,7 +124,7 @@ def build_key(options: BuildOptions) -> str:
 
 
 def _files_of(package: str) -> list[bytes]:
-    """Python files and templates of a package: what a build depends on beside its options."""
+    """Contents of the Python files and templates of a package, on which a build depends."""
     root = importlib.resources.files(package)
     folders = [root, root.joinpath("templates")]
     entries = [e for f in folders if f.is_dir() for e in f.iterdir()]
@@ -133,7 +133,7 @@ def _files_of(package: str) -> list[bytes]:
 
 
 def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None) -> Path:
-    """Path of a finished FMU: one that came with the package, or from the cache, or built now.
+    """Path of an FMU that came with the package, lies in the cache or is built now.
 
     Args:
         options: what to build.
@@ -150,7 +150,7 @@ def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None
     path = cached_path(key, MODEL)
     if not path.is_file():
         everywhere = _ready_everywhere(options)
-        # darwin64 alone is one processor's file, and the ready one holds both
+        # alone, darwin64 is the library for Intel; the ready FMU has one file for both processors
         if everywhere.is_file() and ("darwin64" not in options.platforms):
             content = _narrowed(everywhere, options)
         elif options.platforms and not compiler_version():
@@ -162,22 +162,22 @@ def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None
 
 
 def cached_path(key: str, model: str) -> Path:
-    """Where a built FMU is kept.
+    """Path of a built FMU in the cache.
 
     Args:
-        key: what it is made from, but for the compiler.
+        key: of its build.
         model: name of the model.
     """
     return cache_folder() / f"{key}-{compiler_version() or 'none'}" / f"{model}.fmu"
 
 
 def _ready_everywhere(options: BuildOptions) -> Path:
-    """Where a ready FMU for all platforms would lie."""
+    """Path at which a ready FMU for all platforms would lie."""
     return READY / f"{build_key(replace(options, platforms=tuple(PLATFORMS)))}.fmu"
 
 
 def _narrowed(fmu: Path, options: BuildOptions) -> bytes:
-    """The FMU with the binaries of ``options`` only, as a build of its own would give it."""
+    """The FMU with the binaries of ``options`` alone, equal to what a build of them gives."""
     with zipfile.ZipFile(fmu) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
     libraries = {name: files[place(PLATFORMS[name], options.fmi)] for name in options.platforms}
@@ -188,9 +188,8 @@ def _narrowed(fmu: Path, options: BuildOptions) -> bytes:
 def _no_compiler() -> str:
     ready = len(list(READY.glob("*.fmu")))
     return (
-        f"this FMU is not among the {ready} that came with the package (4 and 6 legs, FMI 2, "
-        "defaults), or the sources were changed since, and the compiler is not installed: "
-        'pip install "apnc[build]"'
+        f"this FMU is none of the {ready} that came with the package (4 and 6 legs, FMI 2, "
+        f"defaults), or its sources were changed since, and {NO_COMPILER}"
     )
 
 

@@ -1,4 +1,4 @@
-"""The one folder for everything that is kept between runs: built FMUs and compiled code."""
+"""The folder of everything that is kept between runs: built FMUs and compiled code."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ VARIABLE = "APNC_CACHE"
 
 
 def cache_folder() -> Path:
-    """Where finished builds and compiled code are kept.
+    """Folder of finished builds and compiled code.
 
-    The variable ``APNC_CACHE``, else the user's cache folder, else, where that cannot be written,
-    a folder of this user below the temporary folder.
+    It is the value of the environment variable ``APNC_CACHE``, or else the user's cache folder. If
+    that cannot be written, it is a folder of this user in the temporary folder.
     """
     chosen = os.environ.get(VARIABLE)
     return Path(chosen) if chosen else _usual()
@@ -40,7 +40,7 @@ def _temporary() -> Path:
     folder = Path(tempfile.gettempdir()) / f"apnc-{user}"
     folder.mkdir(mode=0o700, exist_ok=True)
     found = folder.lstat()
-    # anybody may have made a folder of that name, with files in it that would be loaded
+    # another user may have made a folder of that name with libraries that would be loaded
     mine = not hasattr(os, "getuid") or (found.st_uid == user and not found.st_mode & 0o022)
     return (
         folder if mine and stat.S_ISDIR(found.st_mode) else Path(tempfile.mkdtemp(prefix="apnc-"))
@@ -48,7 +48,7 @@ def _temporary() -> Path:
 
 
 def write_atomically(path: Path, content: bytes) -> None:
-    """Write so that a reader, or a second build in a process or thread, never sees half a file."""
+    """Write a file at once: neither a reader nor a second writer ever sees a part of it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f"{path.name}.{os.getpid()}.{threading.get_ident()}.part")
     part.write_bytes(content)

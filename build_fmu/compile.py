@@ -17,12 +17,14 @@ from build_fmu.platforms import MODEL, BuildError, Platform
 Progress = Callable[[str], None]
 """Called with the name of the platform that is compiled next."""
 
+NO_COMPILER: Final = "the C compiler is not installed: pip install ziglang"
+
 FLAGS: Final = (
     "-std=c11",
     "-O2",
-    # the same rounding everywhere, as the Python reference has it
+    # rounding is then the same on all platforms and in the Python reference
     "-ffp-contract=off",
-    # nobody reads errno, and sine and cosine of one number may then be computed together
+    # the code reads no errno; the compiler may then compute sine and cosine of a number together
     "-fno-math-errno",
     "-fvisibility=hidden",
     "-Wall",
@@ -66,11 +68,11 @@ def compile_library(
         flags: more flags.
 
     Raises:
-        BuildError: the compiler failed, and the message carries what it said; or there is none.
+        BuildError: the compiler is not installed or failed; the message holds its output.
     """
     if not compiler_version():
-        raise BuildError('the compiler is not installed: pip install "apnc[build]"')
-    # the compiler's own run time is built once per platform and kept beside the FMUs
+        raise BuildError(NO_COMPILER)
+    # zig compiles its runtime library once per platform and keeps it in this cache
     caches = {"ZIG_GLOBAL_CACHE_DIR": str(cache_folder() / "zig")}
     with tempfile.TemporaryDirectory() as out:
         library = Path(out) / (name + platform.suffix)

@@ -1,4 +1,4 @@
-"""The controller as a model: what its FMU shows."""
+"""The controller as a model from which its FMU is built."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ REAL_TYPES: Final = {
     "rad": RealType("Angle", "angle", "Angle"),
 }
 LOG_CATEGORIES: Final = {
-    "logStatusWarning": "unusable inputs",
-    "logStatusError": "wrong calls and values",
-    "logEvents": "life of the instance",
+    "logStatusWarning": "inputs that cannot be used, steps longer than a tick",
+    "logStatusError": "calls and values that are not allowed",
+    "logEvents": "start of the simulation",
 }
 _ABOUT: Final = "Adaptive neural controller of a legged robot: self-organised, memorised gaits"
 

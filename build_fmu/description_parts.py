@@ -27,7 +27,7 @@ UNITS: Final[dict[str, dict[str, str]]] = {
     "N/m": {"kg": "1", "s": "-2"},
     "N.s/m": {"kg": "1", "s": "-1"},
 }
-"""Units of all models by exponents of the base units."""
+"""Units of all models, by their exponents of the SI base units."""
 
 DEGREES_PER_RADIAN: Final = 57.29577951308232
 ABOUT: Final = {

@@ -1,4 +1,4 @@
-"""Writes the files that are made from the table of variables.
+"""Writes the files that are generated from the table of variables.
 
 ``python -m build_fmu.generate`` writes them; ``outdated()`` names those that differ from the
 table, which a test checks.

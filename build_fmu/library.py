@@ -1,4 +1,4 @@
-"""The robot in C as a shared library for this package itself: ready-made, from the cache, built."""
+"""The robot in C as a shared library that Python loads."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from build_fmu.compile import Progress
 from build_fmu.platforms import PLATFORMS, BuildError, Platform, host_platform
 
 READY: Final = Path(__file__).parent / "ready"
-"""Libraries that came with the installed package lie here, each named by its key."""
+"""Folder of the libraries that came with the package; each file is named by its key."""
 
 NAME: Final = "apnc_plant"
 
 _FOLDERS: Final = ("plant", "loop")
-"""Of ``fmu_src``: the robot, and closed loops of it and a controller."""
+"""Folders of ``fmu_src``: the robot, and closed loops of robot and controller."""
 
 _FLAGS: Final = ("-fvisibility=default",)
-"""Beside those of every build; a library for Python shows its functions, an FMU hides them."""
+"""Further flags: Python looks up the functions by name, which an FMU hides."""
 
 
 def headers() -> list[str]:
-    """Text of ``plant.h`` and ``loop.h``, which the library's functions are declared in."""
+    """Text of ``plant.h`` and ``loop.h``, which declare the functions of the library."""
     paths = [_root().joinpath(name).joinpath(f"{name}.h") for name in _FOLDERS]
     return [path.read_text(encoding="utf-8") for path in paths]
 
@@ -48,7 +48,7 @@ def _is_c(name: str) -> bool:
 
 
 def library_name(platform: Platform) -> str:
-    """Name of the ready library for a platform: what it is made from, but for the compiler."""
+    """File name of the library for a platform: a hash of its sources, flags and platform."""
     parts = [repr((compiler.FLAGS, _FLAGS, platform)).encode()]
     for name, content in sources().items():
         parts += [name.encode(), content]
@@ -56,7 +56,7 @@ def library_name(platform: Platform) -> str:
 
 
 def library_path(platform: str | None = None, progress: Progress = lambda platform: None) -> Path:
-    """Path of the library: one that came with the package, or from the cache, or built now.
+    """Path of a library that came with the package, lies in the cache or is built now.
 
     Args:
         platform: folder name of a platform; this machine's if omitted.
@@ -76,8 +76,8 @@ def library_path(platform: str | None = None, progress: Progress = lambda platfo
     if not path.is_file():
         if not version:
             raise BuildError(
-                "the robot in C did not come with the package for this machine, or its sources "
-                'were changed since, and the compiler is not installed: pip install "apnc[build]"'
+                "the package brings no library of the robot for this machine, or its sources were "
+                f"changed since, and {compiler.NO_COMPILER}"
             )
         progress(target.folder)
         write_atomically(path, _built(target))

@@ -1,4 +1,4 @@
-"""A model as its FMU shows it: what description and documentation are made from."""
+"""A model from which the description and the documentation of its FMU are made."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ class RealType(NamedTuple):
     """A declared type of real numbers.
 
     Args:
-        name: its name.
-        description: what its numbers are.
+        name: of the type.
+        description: of its numbers.
         quantity: physical quantity; empty if there is none.
     """
 
@@ -40,18 +40,18 @@ class RealType(NamedTuple):
 
 @dataclass(frozen=True)
 class Model:
-    """A model.
+    """A model of an FMU.
 
     Args:
-        identifier: its name, and that of the libraries.
-        about: what it is, in one line.
-        table: its variables.
+        identifier: name of the model and of its libraries.
+        about: description of the model in one line.
+        table: variables.
         numbers: number of each variable by name, from which value references follow.
         legs: names of the legs.
         starts: start values, one per entry, of variables that do not start as the table says.
         enumerations: enumeration types of the variables.
         types: type of real numbers by unit.
-        log_categories: what each says.
+        log_categories: description of each log category.
         step: communication step of the default experiment [s].
         naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``), for FMI 2.0.
         fmi: version of the standard, 2 or 3.

@@ -1,4 +1,4 @@
-"""What can be chosen about a build."""
+"""Options of a build."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class BuildOptions:
-    """Choices of one build.
+    """Options of one build.
 
     Args:
         legs: number of legs, 2 to 64.

@@ -1,4 +1,4 @@
-"""Files into an FMU: a zip whose bytes depend on nothing but the files."""
+"""Zip file of an FMU, whose bytes depend on its files alone."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ _ALIGNMENT: Final = 14
 
 
 class BuildError(ValueError):
-    """A build that cannot be made, or has no binary for this machine, in one line."""
+    """A build cannot be made or has no binary for this machine; the message is one line."""
 
 
 @dataclass(frozen=True)

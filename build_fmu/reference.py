@@ -1,7 +1,7 @@
 """Reference experiment inside the FMU, in the layout of the layered standard FMI-LS-REF.
 
-Stimuli and results let a user check an import in any tool. The results come from the Python
-reference of the controller, not from the binaries they are there to check.
+With the stimuli and results a user checks an import in any tool. The results come from the Python
+reference of the controller, not from the binaries that they check.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ FOLDER: Final = "extra/org.fmi-standard.fmi-ls-ref"
 TICKS: Final = 960
 """Length of the experiment: 16 s at 60 Hz."""
 TOLERANCE: Final = 1e-6
-"""Results are written with six decimals, so that they do not depend on who computes them."""
+"""Results are written with six decimals, so they do not depend on the machine."""
 
 _LS: Final = "http://fmi-standard.org/fmi-ls-manifest"
 _TICKS_PER_S: Final = 60
 _STRIDE_HZ: Final = 1.2
 _STEERED_S: Final = (6, 8)
 _LIFTED_S: Final = (9, 12.5)
-"""Without loads the phases rest, so that the couplings switch on; then the robot stands again."""
+"""Without loads the phases settle and the couplings switch on; then the robot stands again."""
 _RESULTS: Final = (
     "theta_hip", "theta_knee", "gamma", "grf_expected", "phi", "g1", "d", "kappa", "tick",
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""The ready-made FMUs of a release, so that a person without Python takes a file."""
+"""Ready-made FMUs of a release, for people without Python."""
 
 from __future__ import annotations
 
@@ -67,9 +67,9 @@ def _index(files: dict[str, bytes], platforms: tuple[str, ...]) -> str:
     )
     return f"""# APNC {apnc_core.__version__}: ready-made FMUs
 
-The adaptive neural controller of a legged robot. No file needs Python or anything else that is not
-part of the system. Take the one for your robot's legs and your tool's version of FMI; flat names
-are for tools that stumble over brackets or turn them into buses.
+The adaptive neural controller of a legged robot. The files need neither Python nor any other
+software. Take the one for the legs of your robot and for the version of FMI that your tool reads.
+Flat names are for tools that cannot read brackets in names or turn them into buses.
 
 | file | legs | what it is | size |
 |---|---|---|---|

@@ -1,4 +1,4 @@
-"""The C sources as they are compiled and shipped: one flat folder and its configuration."""
+"""The C sources of an FMU, compiled and shipped in one folder, and their configuration."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ _FMI_HEADERS: Final = {
 
 CONTROLLER: Final = "controller"
 PLANT: Final = "plant"
-"""The models that the shell is built for."""
+"""The models that have an FMU."""
 
 _FOLDERS: Final = {CONTROLLER: ("core", "fmi"), PLANT: ("plant", "fmi")}
 _SHARED: Final = ("apnc_names.h", "apnc_real.h", "apnc_variable.h")
-"""Headers of the core that the shell needs of whatever model."""
+"""Headers of the core that the FMI functions of every model need."""
 
 _CONFIGURED: Final = ("apnc_config.h", "plant_config.h", "robot_config.h")
-"""What a build writes its own version of."""
+"""Headers that every build writes."""
 
 
 def collect(fmi: int = 2, model: str = CONTROLLER) -> dict[str, bytes]:
@@ -98,7 +98,7 @@ def shell_config(legs: int, naming: str, guid: str, more: Iterable[str] = ()) ->
         f"#define APNC_LEGS {legs}",
         *(["#define APNC_NAMING_FLAT"] if naming == "flat" else []),
         f'#define APNC_GUID "{guid}"',
-        # static libraries of two builds share no name; the core alone has names by its legs
+        # static libraries of two builds then share no name; the core alone is named by its legs
         *([f"#define APNC_PREFIX {prefix_of(guid)}"] if guid else []),
         *more,
         "",
@@ -109,12 +109,12 @@ def shell_config(legs: int, naming: str, guid: str, more: Iterable[str] = ()) ->
 
 
 def prefix_of(guid: str) -> str:
-    """What the names of a build begin with."""
+    """Prefix of all external names of a build."""
     return f"apnc_{guid[1:9]}_"
 
 
 def _own_defaults(options: BuildOptions) -> list[str]:
-    """Macro that ``apnc_defaults`` ends with; nothing where all values are those of the table."""
+    """Macro that sets the start values which differ from the table; nothing if none does."""
     lines = [
         f"    (p)->{v.name}{'' if v.shape is Shape.scalar else f'[{k}]'} = {_c_number(value)};"
         for v in options.changed()

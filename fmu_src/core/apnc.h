@@ -49,7 +49,7 @@ typedef struct {
     int32_t calm;                     /* [ticks] with d at or below sigma since */
 } apnc_estimation;
 
-/* What the neural couplings hold. */
+/* The stored gait. */
 typedef struct {
     apnc_real phi[APNC_RELATIONS]; /* [rad] stored relations phi_1k */
     apnc_real sin_phi[APNC_LEGS];  /* [1] of phi_11 = 0, phi_12, phi_13, ... */

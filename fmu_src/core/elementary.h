@@ -51,7 +51,7 @@ static inline void apnc_sin_cos(apnc_real x, apnc_real *sine, apnc_real *cosine)
 #pragma STDC FP_CONTRACT OFF
 #endif
 
-#define APNC_TO_WHOLE 6755399441055744.0 /* 1.5 * 2^52: adding it leaves the nearest integer */
+#define APNC_TO_WHOLE 6755399441055744.0 /* 1.5 * 2^52: adding it rounds to the nearest integer */
 
 /* 2^n of a number n to which APNC_TO_WHOLE has been added, |n| < 1000. */
 static inline double apnc_power_of_two(double shifted) {

@@ -1,4 +1,4 @@
-/* Forward model: the load that the leg's own motion lets it expect (Eq. 10-11). */
+/* Forward model: predicts the load of a foot from the leg's own command (Eq. 10-11). */
 #ifndef APNC_FORWARD_MODEL_H
 #define APNC_FORWARD_MODEL_H
 

@@ -1,10 +1,10 @@
-/* Foot load as the circuits see it (text below Eq. 5). */
+/* Load of a foot over half the weight, as the circuits receive it (text below Eq. 5). */
 #ifndef APNC_LOAD_H
 #define APNC_LOAD_H
 
 #include "apnc_variables.h"
 
-/* A load above so many times the weight is no load: a sensor shows it when its wire breaks. */
+/* Loads above this many weights are faults, such as the reading of a sensor with a broken wire. */
 #define APNC_MOST_WEIGHTS 1000
 
 /* Factor from a load [N] to F, the load over half the weight. */

@@ -18,7 +18,7 @@ static inline void apnc_acquisition_start(apnc_acquisition *s) {
     }
 }
 
-/* Low-passed angle between the vectors (o1, o2) of leg 1 and of leg k. */
+/* Angle between the vectors (o1, o2) of leg 1 and of leg k, low-pass filtered. */
 static inline void apnc_acquire_vector(apnc_acquisition *restrict s, apnc_real phase_filter,
                                        const apnc_real *restrict o1, const apnc_real *restrict o2,
                                        apnc_real *restrict angle) {

@@ -1,4 +1,4 @@
-/* Estimation of the phase relations: are they settled? (Eq. 13-16). */
+/* Decides from the relative phases whether they have settled (Eq. 13-16). */
 #ifndef APNC_PHASE_ESTIMATION_H
 #define APNC_PHASE_ESTIMATION_H
 
@@ -24,7 +24,7 @@ static inline apnc_real apnc_distance(apnc_estimation *restrict s, int N,
     }
     memcpy(s->angle_before, angle, sizeof s->angle_before);
     s->oldest = s->oldest + 1 < N ? s->oldest + 1 : 0;
-    if (s->oldest == 0) { /* summed anew once per round, so that rounding does not pile up */
+    if (s->oldest == 0) { /* summed anew once per round, so that rounding errors do not grow */
         for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] = 0;
         for (int i = 0; i < N; i++)
             for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] += s->window[i][r];

@@ -15,13 +15,13 @@ package Parameters "Parameters by block; generated from the table of variables, 
 
   record Method "Parameters: Method"
     parameter Types.Method method=Types.Method.apnc
-      "which controller runs"
+      "controller that runs"
       annotation (Dialog(group="Method"));
   end Method;
 
   record Commands "Parameters: Commands"
     parameter Boolean MI_zero_resets=true
-      "true: MI = 0 acts as reset; false: the oscillators run on at w12 = w12_0, as Eq. 3 reads (Eq. 3)"
+      "true: MI = 0 acts as reset; false: the oscillators keep running with w12 = w12_0, as printed in Eq. 3 (Eq. 3)"
       annotation (Dialog(group="Commands"));
   end Commands;
 
@@ -30,7 +30,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
       "weight of the robot; half of it normalises the load (Eq. 5)"
       annotation (Dialog(group="FootLoad"));
     parameter Real F_max(unit="1", min=0.0, max=2000.0)=1.0
-      "largest load over half the weight that the circuits see; a higher one, as in an impact or under a payload, counts as this (Eq. 5)"
+      "limit of the load over half the weight; a higher load, as in an impact or under a payload, counts as this value (Eq. 5)"
       annotation (Dialog(group="FootLoad"));
   end FootLoad;
 
@@ -72,7 +72,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
 
   record SensoryFeedback "Parameters: SensoryFeedback"
     parameter Real feedback_kept(unit="1", min=0.0, max=1.0)=0.1
-      "share of the sensory feedback that stays while the couplings are on; 1 as in the equations (Eq. 5)"
+      "share of the sensory feedback that remains while the couplings are on; the equations have 1 (Eq. 5)"
       annotation (Dialog(group="SensoryFeedback"));
     parameter Real gamma_tegotae(unit="1", min=0.0, max=10.0)=0.03
       "fixed feedback gain of the Tegotae baseline (Eq. 5)"
@@ -102,7 +102,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
       "shape of the expected load (Eq. 10)"
       annotation (Dialog(group="ForwardModel"));
     parameter Types.ForwardModel forward_model=Types.ForwardModel.low_pass_hip
-      "what the expected load is made of (Eq. 10, 11)"
+      "how the expected load is computed (Eq. 10, 11)"
       annotation (Dialog(group="ForwardModel"));
     parameter Real rbf_rate(unit="1", min=0.0, max=1.0)=0.02
       "learning rate of the radial-basis forward model (Eq. 10)"
@@ -111,7 +111,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
 
   record TouchDown "Parameters: TouchDown"
     parameter Real grf_reset(unit="1", min=0.0, max=10.0)=0.4
-      "load, over a quarter of the weight, that resets the phase when crossed upwards (phase-resetting baseline)"
+      "load over a quarter of the weight at which a rising load resets the phase (phase-resetting baseline)"
       annotation (Dialog(group="TouchDown"));
   end TouchDown;
 
@@ -120,7 +120,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
       "how the relative phases are measured; the paper prints peak (Eq. 12)"
       annotation (Dialog(group="PhaseAcquisition"));
     parameter Real phase_filter(unit="1", min=0.0001, max=1.0)=0.035
-      "new part per tick in the low-pass of the vector phase measure (Eq. 12)"
+      "share of the new value per tick in the low-pass filter of the vector phase measure (Eq. 12)"
       annotation (Dialog(group="PhaseAcquisition"));
   end PhaseAcquisition;
 
@@ -151,13 +151,13 @@ package Parameters "Parameters by block; generated from the table of variables, 
       "sign of the coupling term; the paper prints plus (Eq. 18)"
       annotation (Dialog(group="NeuralCoupling"));
     parameter Boolean phi_frozen=true
-      "true: the couplings hold the phases measured when kappa switched on; false: the phases measured now, as Eq. 17 reads (Eq. 17)"
+      "true: the couplings use the phases measured when kappa switched on; false: the phases measured now, as printed in Eq. 17 (Eq. 17)"
       annotation (Dialog(group="NeuralCoupling"));
     parameter Boolean stored=false
-      "true: start with the relations phi_stored learned and the couplings on (Eq. 17)"
+      "true: start with the stored gait phi_stored and the couplings on (Eq. 17)"
       annotation (Dialog(group="NeuralCoupling"));
     parameter Types.Angle phi_stored[n - 1](each displayUnit="deg", each min=-7.0, each max=7.0)=fill(0.0, n - 1)
-      "phase relation phi_1k that a start with stored = true holds (Eq. 17)"
+      "stored gait at the start: relative phase phi_1k, used if stored is true (Eq. 17)"
       annotation (Dialog(group="NeuralCoupling"));
   end NeuralCoupling;
 

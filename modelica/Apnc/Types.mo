@@ -19,21 +19,21 @@ package Types "Physical quantities and choices; generated from the table of vari
     apc "adaptive physical communication only, Eq. 1-11",
     tegotae "Tegotae baseline: Eq. 5 with a fixed gain",
     phase_reset "phase-resetting baseline: activations set to (1, 0) at touch-down")
-    "Which controller runs";
+    "Controller that runs";
 
   type ForwardModel = enumeration(
-    low_pass_hip "low-passed stance of the hip command, Eq. 10-11 as printed",
+    low_pass_hip "low-pass filter of the stance of the hip command, Eq. 10-11 as printed",
     low_pass_knee "Eq. 10-11 with the knee command, as the text of section 2.1.2 has it",
     radial_basis "radial basis functions of (o1, o2) that learn the load")
-    "What the expected load is made of";
+    "How the expected load is computed";
 
   type PhaseMeasure = enumeration(
-    vector "low-passed angle between the vectors (o1, o2) of two legs",
+    vector "angle between the vectors (o1, o2) of two legs, low-pass filtered",
     peak "times of the peaks of o1, Eq. 12")
     "How the relative phases are measured";
 
   type KappaRule = enumeration(
-    armed "armed once d has exceeded sigma, on after kappa_hold ticks at or below it, then kept",
+    armed "on after d has exceeded sigma and then stayed at or below it for kappa_hold ticks",
     printed "Eq. 16 as printed: on whenever d is at or below sigma")
     "When the neural couplings switch on";
 

@@ -75,20 +75,20 @@ def test_after_a_change_of_the_sources_the_compiler_is_asked_for(
     files = sources.own_files()
     changed = files | {"controller.c": files["controller.c"] + b"/* changed */"}
     monkeypatch.setattr(sources, "own_files", lambda fmi: changed)
-    with pytest.raises(BuildError, match=r'pip install "apnc\[build\]"') as raised:
+    with pytest.raises(BuildError, match="pip install ziglang") as raised:
         host_fmu()
     assert "\n" not in str(raised.value)
 
 
 def test_what_is_not_ready_asks_for_the_compiler(ready: Path) -> None:
-    with pytest.raises(BuildError, match="not among the 1 that came with the package"):
+    with pytest.raises(BuildError, match="none of the 1 that came with the package"):
         host_fmu(8)
     assert cached_fmu(BuildOptions(platforms=())).is_file()  # sources only: nothing to compile
 
 
 def test_compiling_without_a_compiler_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(compile, "compiler_version", str)
-    with pytest.raises(BuildError, match=r'the compiler is not installed: pip install "apnc\['):
+    with pytest.raises(BuildError, match="the C compiler is not installed: pip install ziglang"):
         build.fmu_bytes(HOST)
 
 

@@ -16,7 +16,7 @@ partial block Controller
   extends Parameters.PhaseEstimation;
   extends Parameters.NeuralCoupling;
   RealInput grf[n](each quantity="Force", each unit="N", each start=0.0)
-    "load on the foot; not finite, negative or above 1000 weights counts as zero and raises fault (Eq. 5)"
+    "load on the foot; a value that is not finite, negative or above 1000 weights counts as zero and raises fault (Eq. 5)"
     annotation (Placement(transformation(extent={{-120,70},{-100,90}})));
   RealInput MI(unit="1", min=0.0, max=1.0, start=0.08)
     "modulatory input: sets the stepping frequency; limited to its range (Eq. 3)"
@@ -25,7 +25,7 @@ partial block Controller
     "steering, positive turns left: scales the amplitudes of the right legs up and of the left legs down; limited to its range (Eq. 4)"
     annotation (Placement(transformation(extent={{-120,-36},{-100,-16}})));
   BooleanInput reset(start=false)
-    "while true, oscillators, learners and forward models are held at their start state; the stored phase relations are kept"
+    "while true, oscillators, learners and forward models stay at their start state; the stored gait is kept"
     annotation (Placement(transformation(extent={{-120,-90},{-100,-70}})));
   RealOutput theta_hip[n](each quantity="Angle", each unit="rad", each displayUnit="deg")
     "command of the hip joint, relative to the reference pose (Eq. 4)"
@@ -58,13 +58,13 @@ partial block Controller
     "neural coupling to neuron N2, as added to its activation (Eq. 17)"
     annotation (Placement(transformation(extent={{100,-23},{110,-13}})));
   BooleanOutput fault[n]
-    "true while the load input of the leg is unusable"
+    "true while the load input of the leg cannot be used"
     annotation (Placement(transformation(extent={{100,-36},{110,-26}})));
   RealOutput phi[n - 1](each quantity="Angle", each unit="rad", each displayUnit="deg")
     "relative phase phi_1k of legs 1 and k = index + 1, in [-pi/2, 3 pi/2) (Eq. 12)"
     annotation (Placement(transformation(extent={{100,-48},{110,-38}})));
   RealOutput phi_memory[n - 1](each quantity="Angle", each unit="rad", each displayUnit="deg")
-    "phase relation phi_1k stored in the couplings; zero while there is none (Eq. 17)"
+    "stored gait that is held now: relative phase phi_1k; zero while no gait is stored (Eq. 17)"
     annotation (Placement(transformation(extent={{100,-61},{110,-51}})));
   RealOutput d(quantity="Angle", unit="rad")
     "distance of the relative phases from their mean (Eq. 15)"

@@ -88,7 +88,7 @@ static inline void apnc_sin_cos(apnc_real x, apnc_real *sine, apnc_real *cosine)
 #pragma STDC FP_CONTRACT OFF
 #endif
 
-#define APNC_TO_WHOLE 6755399441055744.0 /* 1.5 * 2^52: adding it leaves the nearest integer */
+#define APNC_TO_WHOLE 6755399441055744.0 /* 1.5 * 2^52: adding it rounds to the nearest integer */
 
 /* 2^n of a number n to which APNC_TO_WHOLE has been added, |n| < 1000. */
 static inline double apnc_power_of_two(double shifted) {
@@ -309,18 +309,18 @@ typedef enum {
 } apnc_method;
 
 typedef enum {
-    APNC_FORWARD_MODEL_LOW_PASS_HIP = 1, /* low-passed stance of the hip command, Eq. 10-11 as printed */
+    APNC_FORWARD_MODEL_LOW_PASS_HIP = 1, /* low-pass filter of the stance of the hip command, Eq. 10-11 as printed */
     APNC_FORWARD_MODEL_LOW_PASS_KNEE = 2, /* Eq. 10-11 with the knee command, as the text of section 2.1.2 has it */
     APNC_FORWARD_MODEL_RADIAL_BASIS = 3, /* radial basis functions of (o1, o2) that learn the load */
 } apnc_forward_model;
 
 typedef enum {
-    APNC_PHASE_MEASURE_VECTOR = 1, /* low-passed angle between the vectors (o1, o2) of two legs */
+    APNC_PHASE_MEASURE_VECTOR = 1, /* angle between the vectors (o1, o2) of two legs, low-pass filtered */
     APNC_PHASE_MEASURE_PEAK = 2, /* times of the peaks of o1, Eq. 12 */
 } apnc_phase_measure;
 
 typedef enum {
-    APNC_KAPPA_RULE_ARMED = 1, /* armed once d has exceeded sigma, on after kappa_hold ticks at or below it, then kept */
+    APNC_KAPPA_RULE_ARMED = 1, /* on after d has exceeded sigma and then stayed at or below it for kappa_hold ticks */
     APNC_KAPPA_RULE_PRINTED = 2, /* Eq. 16 as printed: on whenever d is at or below sigma */
 } apnc_kappa_rule;
 
@@ -333,8 +333,8 @@ typedef enum {
 typedef struct {
     apnc_real Ts; /* [s] time between two ticks of the controller */
     apnc_real robot_weight; /* [N] Eq. 5: weight of the robot; half of it normalises the load */
-    apnc_real F_max; /* [1] Eq. 5: largest load over half the weight that the circuits see; a higher one, as in an impact or under a payload, counts as this */
-    int32_t method; /* which controller runs */
+    apnc_real F_max; /* [1] Eq. 5: limit of the load over half the weight; a higher load, as in an impact or under a payload, counts as this value */
+    int32_t method; /* controller that runs */
     apnc_real w11; /* [1] Eq. 3: self-weight of both neurons, w11 = w22 */
     apnc_real w12_0; /* [1] Eq. 3: cross-weight at MI = 0: w12 = w12_0 + MI, w21 = -w12 */
     apnc_real bias; /* [1] Eq. 1: bias added to both activations; the paper has none */
@@ -351,31 +351,31 @@ typedef struct {
     apnc_real B_s; /* [1] Eq. 8: learning rate of the slow learner */
     apnc_real alpha; /* [1] Eq. 10: scale of the expected load */
     apnc_real rho; /* [1] Eq. 10: shape of the expected load */
-    int32_t forward_model; /* Eq. 10, 11: what the expected load is made of */
+    int32_t forward_model; /* Eq. 10, 11: how the expected load is computed */
     apnc_real rbf_rate; /* [1] Eq. 10: learning rate of the radial-basis forward model */
     int32_t phase_measure; /* Eq. 12: how the relative phases are measured; the paper prints peak */
-    apnc_real phase_filter; /* [1] Eq. 12: new part per tick in the low-pass of the vector phase measure */
+    apnc_real phase_filter; /* [1] Eq. 12: share of the new value per tick in the low-pass filter of the vector phase measure */
     int32_t N; /* Eq. 14: ticks in the mean of the relative phases */
     apnc_real sigma; /* [rad] Eq. 16: threshold of d below which the phases count as stable */
     int32_t kappa_rule; /* Eq. 16: when the couplings switch on; the paper prints Eq. 16 */
     int32_t kappa_hold; /* Eq. 16: ticks that d stays at or below sigma before kappa switches on */
     apnc_real xi; /* [1] Eq. 17: gain of the neural communication */
-    apnc_real feedback_kept; /* [1] Eq. 5: share of the sensory feedback that stays while the couplings are on; 1 as in the equations */
+    apnc_real feedback_kept; /* [1] Eq. 5: share of the sensory feedback that remains while the couplings are on; the equations have 1 */
     int32_t coupling_sign; /* Eq. 18: sign of the coupling term; the paper prints plus */
-    int32_t phi_frozen; /* Eq. 17: true: the couplings hold the phases measured when kappa switched on; false: the phases measured now, as Eq. 17 reads */
-    int32_t MI_zero_resets; /* Eq. 3: true: MI = 0 acts as reset; false: the oscillators run on at w12 = w12_0, as Eq. 3 reads */
-    int32_t stored; /* Eq. 17: true: start with the relations phi_stored learned and the couplings on */
-    apnc_real phi_stored[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k that a start with stored = true holds */
+    int32_t phi_frozen; /* Eq. 17: true: the couplings use the phases measured when kappa switched on; false: the phases measured now, as printed in Eq. 17 */
+    int32_t MI_zero_resets; /* Eq. 3: true: MI = 0 acts as reset; false: the oscillators keep running with w12 = w12_0, as printed in Eq. 3 */
+    int32_t stored; /* Eq. 17: true: start with the stored gait phi_stored and the couplings on */
+    apnc_real phi_stored[APNC_RELATIONS]; /* [rad] Eq. 17: stored gait at the start: relative phase phi_1k, used if stored is true */
     apnc_real gamma_tegotae; /* [1] Eq. 5: fixed feedback gain of the Tegotae baseline */
-    apnc_real grf_reset; /* [1] load, over a quarter of the weight, that resets the phase when crossed upwards (phase-resetting baseline) */
+    apnc_real grf_reset; /* [1] load over a quarter of the weight at which a rising load resets the phase (phase-resetting baseline) */
 } apnc_parameters;
 
 /* Inputs of one tick. */
 typedef struct {
-    apnc_real grf[APNC_LEGS]; /* [N] Eq. 5: load on the foot; not finite, negative or above 1000 weights counts as zero and raises fault */
+    apnc_real grf[APNC_LEGS]; /* [N] Eq. 5: load on the foot; a value that is not finite, negative or above 1000 weights counts as zero and raises fault */
     apnc_real MI; /* [1] Eq. 3: modulatory input: sets the stepping frequency; limited to its range */
     apnc_real turn; /* [1] Eq. 4: steering, positive turns left: scales the amplitudes of the right legs up and of the left legs down; limited to its range */
-    int32_t reset; /* while true, oscillators, learners and forward models are held at their start state; the stored phase relations are kept */
+    int32_t reset; /* while true, oscillators, learners and forward models stay at their start state; the stored gait is kept */
 } apnc_inputs;
 
 /* Outputs and local variables of one tick. */
@@ -390,9 +390,9 @@ typedef struct {
     apnc_real f2[APNC_LEGS]; /* [1] Eq. 5: sensory feedback to neuron N2 */
     apnc_real g1[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N1, as added to its activation */
     apnc_real g2[APNC_LEGS]; /* [1] Eq. 17: neural coupling to neuron N2, as added to its activation */
-    int32_t fault[APNC_LEGS]; /* true while the load input of the leg is unusable */
+    int32_t fault[APNC_LEGS]; /* true while the load input of the leg cannot be used */
     apnc_real phi[APNC_RELATIONS]; /* [rad] Eq. 12: relative phase phi_1k of legs 1 and k = index + 1, in [-pi/2, 3 pi/2) */
-    apnc_real phi_memory[APNC_RELATIONS]; /* [rad] Eq. 17: phase relation phi_1k stored in the couplings; zero while there is none */
+    apnc_real phi_memory[APNC_RELATIONS]; /* [rad] Eq. 17: stored gait that is held now: relative phase phi_1k; zero while no gait is stored */
     apnc_real d; /* [rad] Eq. 15: distance of the relative phases from their mean */
     apnc_real kappa; /* [1] Eq. 16: 1 while the neural couplings are on, else 0 */
     int32_t tick; /* Eq. 1: number of ticks run since the start */
@@ -458,7 +458,7 @@ typedef struct {
     int32_t calm;                     /* [ticks] with d at or below sigma since */
 } apnc_estimation;
 
-/* What the neural couplings hold. */
+/* The stored gait. */
 typedef struct {
     apnc_real phi[APNC_RELATIONS]; /* [rad] stored relations phi_1k */
     apnc_real sin_phi[APNC_LEGS];  /* [1] of phi_11 = 0, phi_12, phi_13, ... */
@@ -519,7 +519,7 @@ static inline apnc_real apnc_learn(apnc_real A, apnc_real K, apnc_real B, apnc_r
 static inline apnc_real apnc_gain(apnc_real K_f, apnc_real K_s) { return K_f + K_s; }
 
 #endif
-/* Forward model: the load that the leg's own motion lets it expect (Eq. 10-11). */
+/* Forward model: predicts the load of a foot from the leg's own command (Eq. 10-11). */
 #ifndef APNC_FORWARD_MODEL_H
 #define APNC_FORWARD_MODEL_H
 
@@ -557,12 +557,12 @@ static inline apnc_real apnc_expect_learned(const apnc_parameters *p, apnc_real 
 }
 
 #endif
-/* Foot load as the circuits see it (text below Eq. 5). */
+/* Load of a foot over half the weight, as the circuits receive it (text below Eq. 5). */
 #ifndef APNC_LOAD_H
 #define APNC_LOAD_H
 
 
-/* A load above so many times the weight is no load: a sensor shows it when its wire breaks. */
+/* Loads above this many weights are faults, such as the reading of a sensor with a broken wire. */
 #define APNC_MOST_WEIGHTS 1000
 
 /* Factor from a load [N] to F, the load over half the weight. */
@@ -663,7 +663,7 @@ static inline void apnc_acquisition_start(apnc_acquisition *s) {
     }
 }
 
-/* Low-passed angle between the vectors (o1, o2) of leg 1 and of leg k. */
+/* Angle between the vectors (o1, o2) of leg 1 and of leg k, low-pass filtered. */
 static inline void apnc_acquire_vector(apnc_acquisition *restrict s, apnc_real phase_filter,
                                        const apnc_real *restrict o1, const apnc_real *restrict o2,
                                        apnc_real *restrict angle) {
@@ -697,7 +697,7 @@ static inline void apnc_acquire_peak(apnc_acquisition *s, const apnc_real *o1, a
 }
 
 #endif
-/* Estimation of the phase relations: are they settled? (Eq. 13-16). */
+/* Decides from the relative phases whether they have settled (Eq. 13-16). */
 #ifndef APNC_PHASE_ESTIMATION_H
 #define APNC_PHASE_ESTIMATION_H
 
@@ -721,7 +721,7 @@ static inline apnc_real apnc_distance(apnc_estimation *restrict s, int N,
     }
     memcpy(s->angle_before, angle, sizeof s->angle_before);
     s->oldest = s->oldest + 1 < N ? s->oldest + 1 : 0;
-    if (s->oldest == 0) { /* summed anew once per round, so that rounding does not pile up */
+    if (s->oldest == 0) { /* summed anew once per round, so that rounding errors do not grow */
         for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] = 0;
         for (int i = 0; i < N; i++)
             for (int r = 0; r < APNC_RELATIONS; r++) s->sum[r] += s->window[i][r];
