@@ -1,4 +1,4 @@
-"""Measure ``docs/data/legs_*.csv``, write the tables of ``docs/legs.md`` and draw its picture.
+"""Measure ``docs/data/legs_*.csv``, write their tables and draw the picture of ``docs/legs.md``.
 
 ``nice python -m research.docs.legs [measure [PROCESSES]]``: without the word tables and picture are
 made from the files. Every number of the robots is taken from their files: run it again after one
@@ -71,7 +71,7 @@ def mapped(robot: str, which: str, mi: float, gait: str) -> Row:
 
 def walked(robot: str, which: str, mi: float, seed: int) -> Row:
     """The gait in which a run without couplings ends."""
-    experiment = Experiment(robot=robot, mi=mi, seed=seed, duration=SECONDS, method="apc")
+    experiment = Experiment(robot=robot, mi=mi, seed=seed, duration=SECONDS, controller="apc")
     record = simulate(experiment, plant=plant(which, experiment))
     o1, o2 = record.signals["o1"], record.signals["o2"]
     phases = metrics.final_phases(o1, o2, experiment.Ts)
@@ -163,7 +163,7 @@ def predictions(maps: list[Row], runs: list[Row]) -> str:
 
 def write_page(maps: list[Row], runs: list[Row]) -> None:
     """Put the tables below their marks."""
-    page = DOCS / "legs.md"
+    page = DOCS / "legs" / "multipliers.md"
     text = page.read_text(encoding="utf-8")
     text = put(text, "legs-predictions", predictions(maps, runs))
     for robot in ROBOTS:
