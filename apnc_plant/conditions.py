@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
+from functools import partial
 from types import MappingProxyType
-from typing import Final
+from typing import Annotated, Final
+
+from pydantic import AfterValidator, BeforeValidator
 
 from apnc_core.frozen import Frozen
 from apnc_core.in_python import in_python
+from apnc_plant.files import Number, checked, limits
 
 ALL: Final = "*"
 """Stands for every leg of a robot."""
 
 
-@dataclass(frozen=True)
+Halves = Annotated[Number, limits("1", ge=0.0), BeforeValidator(in_python)]
+Stuck = Annotated[Mapping[str, Halves], AfterValidator(Frozen)]
+
+
+@checked(ValueError)
 class Conditions:
     """The state of a robot that a study sets, on top of its description.
 
@@ -23,34 +30,20 @@ class Conditions:
         payload: mass of a box on the trunk [kg]; fixed once a plant is built.
         grf_noise: standard deviation of noise added to the sensors' own, halves of the weight [1].
         damaged: legs whose hip and knee are held at angle 0 of the reference pose.
-        stuck: what the sensor of a leg delivers for ever, in halves of the weight [1], by leg.
-        dropout: legs whose sensor delivers 0; ``("*",)`` for all of any robot.
-        held_at: the trunk is held level at this height above its start [m]; None lets it go.
+        stuck: constant value that a stuck sensor reports, in halves of the weight [1], by leg.
+        dropout: legs whose sensor reports 0; ``("*",)`` means every leg of any robot.
+        held_at: height above its start at which the trunk is held level [m]; None: it is free.
 
     Raises:
-        ValueError: a number that is negative or not finite.
+        ValueError: a number that is negative or not finite, or a value of another type.
     """
 
-    payload: float = 0.0
-    grf_noise: float = 0.0
+    payload: Annotated[Number, limits("kg", ge=0.0)] = 0.0
+    grf_noise: Halves = 0.0
     damaged: tuple[str, ...] = ()
-    stuck: Mapping[str, float] = field(default_factory=dict)
+    stuck: Stuck = field(default_factory=partial(Frozen, {}))
     dropout: tuple[str, ...] = ()
-    held_at: float | None = None
-
-    def __post_init__(self) -> None:
-        """Check the values."""
-        held = None if self.held_at is None else _size("held_at", self.held_at)
-        own = {
-            "payload": _size("payload", self.payload),
-            "grf_noise": _size("grf_noise", self.grf_noise),
-            "damaged": tuple(self.damaged),
-            "stuck": Frozen({k: _size(f"stuck[{k}]", v) for k, v in self.stuck.items()}),
-            "dropout": tuple(self.dropout),
-            "held_at": held,
-        }
-        for name, value in own.items():
-            object.__setattr__(self, name, value)
+    held_at: Annotated[Number, limits("m", ge=0.0)] | None = None
 
     def silent(self, legs: tuple[str, ...]) -> tuple[str, ...]:
         """Which of a robot's legs have a sensor that delivers 0."""
@@ -76,14 +69,6 @@ class Conditions:
         for leg in (*self.damaged, *self.stuck, *self.silent(legs)):
             if leg not in legs:
                 raise ValueError(f"leg {leg!r} is not one of {', '.join(legs)}")
-
-
-def _size(name: str, value: object) -> float:
-    number = in_python(value)
-    known = isinstance(number, int | float) and not isinstance(number, bool)
-    if known and math.isfinite(number) and number >= 0.0:
-        return float(number)
-    raise ValueError(f"{name} is {value}; allowed: a finite number, 0 or more")
 
 
 PAYLOAD: Final = 1.25

@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from difflib import get_close_matches
-from functools import wraps
+from functools import cache, wraps
 from pathlib import Path
 from typing import Annotated, Any, Final, TypeVar, cast, dataclass_transform
 
 from pydantic import ConfigDict, Field, PydanticUserError, TypeAdapter, ValidationError
-from pydantic.dataclasses import dataclass
+from pydantic_core import ArgsKwargs
 
 from apnc_core.in_python import in_python
 
@@ -53,14 +53,14 @@ def checked(error: type[ValueError]) -> Callable[[type[Model]], type[Model]]:
     """
 
     def decorate(cls: type[Model]) -> type[Model]:
-        config = ConfigDict(extra="forbid")
-        made = cast(Any, dataclass(cls, frozen=True, config=config))
-        check = made.__init__
+        made: Any = dataclass(frozen=True)(cls)
+        made.__pydantic_config__ = ConfigDict(extra="forbid")
 
-        @wraps(check)
+        @wraps(made.__init__)
         def init(self: Model, *args: Any, **values: Any) -> None:
+            given = ArgsKwargs(in_python(args), {k: in_python(v) for k, v in values.items()})
             try:
-                check(self, *in_python(args), **{k: in_python(v) for k, v in values.items()})
+                _adapter(made).validator.validate_python(given, self_instance=self)
             except ValidationError as refused:
                 raise error(error_line(refused, made)) from None
 
@@ -68,6 +68,12 @@ def checked(error: type[ValueError]) -> Callable[[type[Model]], type[Model]]:
         return cast(type[Model], made)
 
     return decorate
+
+
+@cache
+def _adapter(model: Any) -> TypeAdapter[Any]:
+    """Made at the first use, since it takes long."""
+    return TypeAdapter(model)
 
 
 def read_table(path: Path) -> dict[str, Any]:
@@ -122,7 +128,8 @@ def checked_table(
         ValueError: one line with the key, its value and what is allowed.
     """
     try:
-        return TypeAdapter(model).validate_python(dict(table), context={"file": True})
+        made = _adapter(cast(Any, model)).validate_python(dict(table), context={"file": True})
+        return cast(Model, made)
     except ValidationError as error:
         raise ValueError(error_line(error, model, shown_as)) from None
 
@@ -166,7 +173,7 @@ def error_line(
 def _schema_at(model: Any, location: Location) -> dict[str, Any]:
     """JSON schema of a value in a model; empty if there is none."""
     try:
-        whole = TypeAdapter(model).json_schema()
+        whole = _adapter(model).json_schema()
         schema = _resolved(whole, whole.get("$defs", {}))
         for key in location:
             if isinstance(key, int):

@@ -37,10 +37,10 @@ def robot_config(robot: RobotDescription) -> bytes:
             {
                 "ROBOT_GRAVITY": (GRAVITY, "[m/s^2]"),
                 "ROBOT_WEIGHT": (robot.weight, "[N] without payload"),
-                "ROBOT_TRUNK_MASS": (trunk.body.mass, "[kg]"),
-                "ROBOT_TRUNK_SIZE": (trunk.body.size, "[m] edges of its box"),
+                "ROBOT_TRUNK_MASS": (trunk.mass, "[kg]"),
+                "ROBOT_TRUNK_SIZE": (trunk.size, "[m] edges of its box"),
                 "ROBOT_TRUNK_CENTER": (trunk.center, "[m] middle of that box"),
-                "ROBOT_TRUNK_COM": (trunk.body.com, "[m] centre of mass"),
+                "ROBOT_TRUNK_COM": (trunk.com, "[m] centre of mass"),
                 "ROBOT_COM_SIDE_OFFSET": (trunk.com_side_offset, "[m]"),
                 "ROBOT_SUSPENSION": (SUSPENSION, "of a held trunk, see plant_suspension"),
                 "ROBOT_PAYLOAD_SIZE": (PAYLOAD_SIZE, "[m] edges of the box on the trunk"),

@@ -63,7 +63,7 @@ def robot_numbers(
         "weight": robot.weight,
         "trunk": _loaded(robot.trunk, side_offset, payload)[0],
         "trunk_center": list(robot.trunk.center),
-        "trunk_size": list(robot.trunk.body.size),
+        "trunk_size": list(robot.trunk.size),
         "servo": servo_numbers(robot.servo),
         "contact": contact_numbers(robot.contact),
         "sensor": sensor_numbers(robot.sensor),
@@ -77,8 +77,8 @@ def _loaded(trunk: Trunk, side_offset: float, payload: float) -> Any:
     """As ``Trunk.loaded``, by the functions that a robot's FMU calls: the bits are the same."""
     ffi, lib = library()
     own, box = ffi.new("plant_body *"), ffi.new("plant_body *")
-    (x, y, z), size = trunk.body.com, trunk.body.size
-    lib.plant_box(trunk.body.mass, size, [x, y + side_offset, z], own)
+    (x, y, z), size = trunk.com, trunk.size
+    lib.plant_box(trunk.mass, size, [x, y + side_offset, z], own)
     (x, y, z), above = trunk.center, (size[2] + PAYLOAD_SIZE[2]) / 2.0
     lib.plant_box(payload, PAYLOAD_SIZE, [x, y, z + above], box)
     lib.plant_join(own, box, own)

@@ -1,8 +1,8 @@
 """The table of variables of a robot's FMU: names, units, ranges, start values, descriptions.
 
 Description, C structs and the table in C are made from it (``python -m apnc_plant.generate``), with
-the numbers of ``apnc_plant/variable_numbers.py``. Start values of a robot's own numbers are those of the
-robot that is built, see :func:`starts_of`.
+the numbers of ``apnc_plant/variable_numbers.py``. Start values of a robot's own numbers are those
+of the robot that is built, see :func:`starts_of`.
 """
 
 from __future__ import annotations

@@ -83,7 +83,7 @@ def robot_mjcf(
     _add(body, "freejoint", name="base")
     trunk = robot.trunk
     _inertial(body, trunk.loaded(0.0, 0.0))
-    _box(body, trunk.center, trunk.body.size, _TOUCHING)
+    _box(body, trunk.center, trunk.size, _TOUCHING)
     _add(body, "site", name="imu")
     for leg, admittance in zip(robot.legs, admittances, strict=True):
         _leg(body, leg, robot, geom_of(robot, admittance))

@@ -16,7 +16,7 @@ def changed(robot: Part, path: str, change: Callable[[Any], Any]) -> Part:
 
     Args:
         robot: a dataclass.
-        path: of the field, such as ``trunk.body.com``.
+        path: of the field, such as ``trunk.com``.
         change: makes the new value of the present one.
     """
     name, _, rest = path.partition(".")

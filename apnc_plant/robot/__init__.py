@@ -9,11 +9,11 @@ from apnc_plant.robot.model import (
     Leg,
     MassProperties,
     RobotDescription,
+    RobotDescriptionError,
     Sensor,
     Servo,
     Trunk,
 )
-from apnc_plant.robot.quantity import RobotDescriptionError
 
 __all__ = [
     "GRAVITY",

@@ -2,18 +2,42 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Final, cast
+from functools import partial
+from typing import Annotated, Any, Final, Literal
 
 import numpy as np
+from pydantic import AfterValidator, ValidationInfo, ValidatorFunctionWrapHandler, WrapValidator
 
+from apnc_core import settings
 from apnc_core.frozen import Frozen
-from apnc_core.settings import checked
 from apnc_core.types import Array
-from apnc_plant.robot.quantity import FLAT, Checked, NotAllowedError, RobotDescriptionError, Rule
+from apnc_plant.files import Number, checked, limits
 
-Vector3 = tuple[float, float, float]
+
+class RobotDescriptionError(ValueError):
+    """A robot file is missing, or a value in it or in a robot is not allowed."""
+
+
+def _angle(value: Any, check: ValidatorFunctionWrapHandler, info: ValidationInfo) -> float:
+    """An angle in rad; it is checked in degrees, which is what a file holds."""
+    in_file = bool(info.context)
+    if in_file or isinstance(value, bool) or not isinstance(value, int | float):
+        return math.radians(check(value))
+    check(math.degrees(value))
+    return float(value)
+
+
+Length = Annotated[Number, limits("m")]
+Edge = Annotated[Number, limits("m", gt=0.0)]
+Angle = Annotated[Number, limits("deg", ge=-180.0, le=180.0), WrapValidator(_angle)]
+_ODD = r"\p{Cc}\p{Zl}\p{Zp}\p{Noncharacter_Code_Point}"  # not in a line of every file format
+_NAME = rf"^[^{_ODD}]*[^\s{_ODD}][^{_ODD}]*$"
+Name = Annotated[str, limits(allowed="a name without control characters", pattern=_NAME)]
+
+Vector3 = tuple[Length, Length, Length]
 
 GRAVITY: Final = 9.81
 
@@ -46,8 +70,8 @@ def _box_inertia(mass: float, size: Vector3) -> Array:
     return np.diag([y + z, x + z, x + y]) * (mass / 12.0)
 
 
-@dataclass(frozen=True)
-class Body(Checked):
+@checked(RobotDescriptionError)
+class Body:
     """A rigid link with the inertia of a homogeneous box.
 
     Args:
@@ -56,34 +80,33 @@ class Body(Checked):
         com: centre of mass in the frame of the link [m].
     """
 
-    mass: Annotated[float, Rule("kg", positive=True)]
-    size: Annotated[Vector3, Rule("m", positive=True, count=3)]
-    com: Annotated[Vector3, Rule("m", count=3)]
+    mass: Annotated[Number, limits("kg", gt=0.0)]
+    size: tuple[Edge, Edge, Edge]
+    com: Vector3
 
     def inertia(self) -> Array:
         """Inertia tensor about the centre of mass [kg m^2], shape (3, 3)."""
         return _box_inertia(self.mass, self.size)
 
 
-@dataclass(frozen=True)
-class Trunk(Checked):
+@checked(RobotDescriptionError)
+class Trunk(Body):
     """The body that carries the legs.
 
     Args:
-        body: mass properties, in a file beside the other keys; ``com`` is measured from the
-            reference point between the hips.
+        mass, size: as of any body.
+        com: centre of mass, measured from the reference point between the hips [m].
         center: middle of the box [m]; differs from the centre of mass.
         com_side_offset: size of the seeded sideways error of the centre of mass [m].
     """
 
-    body: Annotated[Body, FLAT]
-    center: Annotated[Vector3, Rule("m", count=3)] = (0.0, 0.0, 0.0)
-    com_side_offset: Annotated[float, Rule("m", low=0.0)] = 0.0
+    center: Vector3 = (0.0, 0.0, 0.0)
+    com_side_offset: Annotated[Number, limits("m", ge=0.0)] = 0.0
 
     def corners(self) -> Array:
         """Corners of the box relative to the reference point [m], shape (8, 3)."""
         signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, 8).T
-        return np.asarray(self.center) + signs * (np.asarray(self.body.size) / 2.0)
+        return np.asarray(self.center) + signs * (np.asarray(self.size) / 2.0)
 
     def loaded(self, side_offset: float, payload: float) -> MassProperties:
         """Mass properties with a box of ``PAYLOAD_SIZE`` standing on the middle of the trunk.
@@ -92,15 +115,15 @@ class Trunk(Checked):
             side_offset: sideways error of the trunk's own centre of mass [m].
             payload: mass of the box [kg].
         """
-        com = np.add(self.body.com, [0.0, side_offset, 0.0])
-        own = MassProperties(self.body.mass, com, self.body.inertia())
-        top = (self.body.size[2] + PAYLOAD_SIZE[2]) / 2.0
+        com = np.add(self.com, [0.0, side_offset, 0.0])
+        own = MassProperties(self.mass, com, self.inertia())
+        top = (self.size[2] + PAYLOAD_SIZE[2]) / 2.0
         on_top = np.add(self.center, [0.0, 0.0, top])
         return own.joined(MassProperties(payload, on_top, _box_inertia(payload, PAYLOAD_SIZE)))
 
 
-@dataclass(frozen=True)
-class Leg(Checked):
+@checked(RobotDescriptionError)
+class Leg:
     """A leg with an abduction joint about x, and hip and knee joints about y.
 
     Vectors other than ``mount`` have y pointing outward, away from the middle plane.
@@ -115,13 +138,13 @@ class Leg(Checked):
         hip, femur, tibia: mass properties of the three links, in frames at their joints.
     """
 
-    name: Annotated[str, Rule(words=())]
-    mount: Annotated[Vector3, Rule("m", count=3)]
-    hip_offset: Annotated[Vector3, Rule("m", count=3)]
-    femur_length: Annotated[float, Rule("m", positive=True)]
-    tibia_length: Annotated[float, Rule("m", positive=True)]
-    femur_angle: Annotated[float, Rule("deg", low=-180.0, high=180.0)]
-    tibia_angle: Annotated[float, Rule("deg", low=-180.0, high=180.0)]
+    name: Name
+    mount: Vector3
+    hip_offset: Vector3
+    femur_length: Edge
+    tibia_length: Edge
+    femur_angle: Angle
+    tibia_angle: Angle
     hip: Body
     femur: Body
     tibia: Body
@@ -145,8 +168,8 @@ class Leg(Checked):
         return self.hip.mass + self.femur.mass + self.tibia.mass
 
 
-@dataclass(frozen=True)
-class Servo(Checked):
+@checked(RobotDescriptionError)
+class Servo:
     """A geared position servo.
 
     Args:
@@ -159,17 +182,17 @@ class Servo(Checked):
         slew_rate: fastest change of the command that the servo follows [rad/s]; 0 for no limit.
     """
 
-    stiffness: Annotated[float, Rule("N m/rad", positive=True)]
-    damping: Annotated[float, Rule("N m s/rad", low=0.0)]
-    stall_torque: Annotated[float, Rule("N m", positive=True)]
-    no_load_speed: Annotated[float, Rule("rad/s", positive=True)]
-    reflected_inertia: Annotated[float, Rule("kg m^2", low=0.0)] = 0.0
-    latency: Annotated[float, Rule("s", low=0.0)] = 0.0
-    slew_rate: Annotated[float, Rule("rad/s", low=0.0)] = 0.0
+    stiffness: Annotated[Number, limits("N m/rad", gt=0.0)]
+    damping: Annotated[Number, limits("N m s/rad", ge=0.0)]
+    stall_torque: Annotated[Number, limits("N m", gt=0.0)]
+    no_load_speed: Annotated[Number, limits("rad/s", gt=0.0)]
+    reflected_inertia: Annotated[Number, limits("kg m^2", ge=0.0)] = 0.0
+    latency: Annotated[Number, limits("s", ge=0.0)] = 0.0
+    slew_rate: Annotated[Number, limits("rad/s", ge=0.0)] = 0.0
 
 
-@dataclass(frozen=True)
-class Contact(Checked):
+@checked(RobotDescriptionError)
+class Contact:
     """Rubber ball against hard ground.
 
     Args:
@@ -182,16 +205,16 @@ class Contact(Checked):
         friction_speed: below this sliding speed friction is proportional to it [m/s].
     """
 
-    foot_radius: Annotated[float, Rule("m", positive=True)]
-    stiffness: Annotated[float, Rule("N/m", positive=True)]
-    damping: Annotated[float, Rule("N s/m", low=0.0)]
-    damping_depth: Annotated[float, Rule("m", positive=True)] = 0.0002
-    friction: Annotated[float, Rule("1", low=0.0)] = 0.8
-    friction_speed: Annotated[float, Rule("m/s", positive=True)] = 0.03
+    foot_radius: Edge
+    stiffness: Annotated[Number, limits("N/m", gt=0.0)]
+    damping: Annotated[Number, limits("N s/m", ge=0.0)]
+    damping_depth: Edge = 0.0002
+    friction: Annotated[Number, limits("1", ge=0.0)] = 0.8
+    friction_speed: Annotated[Number, limits("m/s", gt=0.0)] = 0.03
 
 
-@dataclass(frozen=True)
-class Sensor(Checked):
+@checked(RobotDescriptionError)
+class Sensor:
     """What separates the load on a foot from the load the controller sees.
 
     Args:
@@ -202,18 +225,46 @@ class Sensor(Checked):
         noise: standard deviation, in halves of the robot's weight [1].
     """
 
-    delay: Annotated[float, Rule("s", low=0.0)] = 0.0
-    time_constant: Annotated[float, Rule("s", low=0.0)] = 0.0
-    noise: Annotated[float, Rule("1", low=0.0)] = 0.0
-    component: Annotated[str, Rule(words=("normal", "norm"))] = "normal"
+    delay: Annotated[Number, limits("s", ge=0.0)] = 0.0
+    time_constant: Annotated[Number, limits("s", ge=0.0)] = 0.0
+    noise: Annotated[Number, limits("1", ge=0.0)] = 0.0
+    component: Literal["normal", "norm"] = "normal"
 
 
 OF_THE_RUN: Final = ("Ts", "robot_weight", "method", "stored", "phi_stored")
 """Parameters of the controller that a run sets, no robot and no preset."""
 
 
-@dataclass(frozen=True)
-class RobotDescription(Checked):
+def _ordered(legs: tuple[Leg, ...]) -> tuple[Leg, ...]:
+    """The legs in the order of the controller."""
+    legs = tuple(sorted(legs, key=lambda leg: (leg.side, -leg.mount[0])))
+    names = [leg.name for leg in legs]
+    if len(set(names)) != len(names):
+        raise ValueError(f"names are {', '.join(names)}; allowed: names that differ")
+    right = [leg.name for leg in legs if leg.side < 0.0]
+    if len(right) != len(legs) // 2:
+        raise ValueError(
+            f"{len(right)} are right ({', '.join(right)}); "
+            f"allowed: {len(legs) // 2} of {len(legs)} legs with y < 0, right of the middle"
+        )
+    return legs
+
+
+def _preset(values: Mapping[str, Any]) -> Frozen[Any]:
+    """Parameters of the controller, checked against its table of variables."""
+    for name in OF_THE_RUN:
+        if name in values:
+            raise ValueError(
+                f"{name} is {values[name]!r}; allowed: parameters that a run does not set"
+            )
+    return Frozen({name: settings.checked(name, value) for name, value in values.items()})
+
+
+Preset = Annotated[Mapping[str, Any], AfterValidator(_preset)]
+
+
+@checked(RobotDescriptionError)
+class RobotDescription:
     """A robot as data, independent of any engine.
 
     Args:
@@ -225,51 +276,25 @@ class RobotDescription(Checked):
             name. Enumerations by item name or number.
 
     Raises:
-        NotAllowedError: two legs of one name; right legs that are not half of all, rounded down
-            (the controller takes the first n // 2 legs for the right ones); no such parameter, or
-            a value it cannot have.
+        RobotDescriptionError: a value out of range; two legs of one name; right legs that are not
+            half of all, rounded down (the controller takes the first n // 2 legs for the right
+            ones); no such parameter, or a value it cannot have.
     """
 
-    name: Annotated[str, Rule(words=())]
+    name: Name
     trunk: Trunk
-    legs: tuple[Leg, ...]
+    legs: Annotated[tuple[Leg, ...], limits(min_length=1), AfterValidator(_ordered)]
     servo: Servo
     contact: Contact
     sensor: Sensor = field(default_factory=Sensor)
-    controller: Mapping[str, float | int | bool] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        """Put the legs in order and check them and the preset."""
-        super().__post_init__()
-        ordered = tuple(sorted(self.legs, key=lambda leg: (leg.side, -leg.mount[0])))
-        object.__setattr__(self, "legs", ordered)
-        names = [leg.name for leg in ordered]
-        if len(set(names)) != len(names):
-            raise NotAllowedError("legs", names, "names that differ")
-        right = [leg.name for leg in ordered if leg.side < 0.0]
-        if len(right) != len(ordered) // 2:
-            allowed = f"{len(ordered) // 2} of {len(ordered)} legs with y < 0, right of the middle"
-            raise NotAllowedError("legs", f"{len(right)} right ({', '.join(right)})", allowed)
-        object.__setattr__(self, "controller", Frozen(_preset(self.controller)))
+    controller: Preset = field(default_factory=partial(Frozen, {}))
 
     @property
     def mass(self) -> float:
         """Total mass [kg]."""
-        return self.trunk.body.mass + sum(leg.mass for leg in self.legs)
+        return self.trunk.mass + sum(leg.mass for leg in self.legs)
 
     @property
     def weight(self) -> float:
         """Weight on earth [N]."""
         return self.mass * GRAVITY
-
-
-def _preset(values: Mapping[str, object]) -> dict[str, float | int | bool]:
-    preset: dict[str, float | int | bool] = {}
-    for name, value in values.items():
-        if name in OF_THE_RUN:
-            raise NotAllowedError(f"controller.{name}", value, "parameters that a run does not set")
-        try:
-            preset[name] = cast(float | int | bool, checked(name, value))
-        except ValueError as error:
-            raise RobotDescriptionError(f"controller: {error}") from None
-    return preset

@@ -56,7 +56,7 @@ def robot_urdf(robot: RobotDescription, *, root: str = "trunk") -> str:
         _add(model, "link", name=root)
         _joint(model, "floating_base", "fixed", root, "trunk")
     trunk = robot.trunk
-    _box(_link(model, "trunk", trunk.loaded(0.0, 0.0)), trunk.center, trunk.body, _TOUCHING)
+    _box(_link(model, "trunk", trunk.loaded(0.0, 0.0)), trunk.center, trunk, _TOUCHING)
     for leg in robot.legs:
         _leg(model, leg, robot)
     ElementTree.indent(model)

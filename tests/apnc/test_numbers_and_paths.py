@@ -28,7 +28,7 @@ from apnc import (
 )
 from apnc.loop.fmu_controller import FmuController
 from apnc.loop.plain import plain
-from apnc.studies.engine import grid_of
+from apnc.studies.runner import grid_of
 from apnc_core.in_python import in_python
 from apnc_core.settings import checked
 from apnc_plant.options import PlantOptions
@@ -50,7 +50,7 @@ SAME: list[tuple[Callable[[Any], Any], Any, Any]] = [
     (lambda x: Experiment(duration=x), np.float32(2), 2.0),
     (lambda x: Experiment(rate=x), np.int32(50), 50.0),
     (lambda x: Experiment(step=x), np.float64(0.001), 0.001),
-    (lambda x: Experiment(method=x), np.str_("apc"), "apc"),
+    (lambda x: Experiment(controller=x), np.str_("apc"), "apc"),
     (lambda x: Experiment(robot=x), ROBOTS / "hexapod.toml", str(ROBOTS / "hexapod.toml")),
     (lambda x: Experiment(settings={"xi": x}), QUARTER, 0.25),
     (lambda x: Experiment(settings={"N": x}), np.int16(40), 40),
@@ -75,7 +75,7 @@ SAME: list[tuple[Callable[[Any], Any], Any, Any]] = [
         lambda x: Experiment(
             robot=replace(
                 LILIBOT,
-                trunk=replace(LILIBOT.trunk, body=replace(LILIBOT.trunk.body, com=x)),
+                trunk=replace(LILIBOT.trunk, com=x),
             )
         ),
         np.array([0.25, 0.0, 0.0], dtype=np.float32),
@@ -130,9 +130,9 @@ def test_what_is_neither_is_refused_for_what_it_is(change: dict[str, Any], words
         (lambda: Obstacles(roughness="rough"), "roughness is 'rough'; allowed: a finite number"),
         (lambda: Obstacles(seed=1.5), "seed is 1.5; allowed: a whole number"),
         (lambda: Plane(slope=None), "slope is None; allowed: a finite number"),
-        (lambda: Conditions(payload="heavy"), "payload is heavy; allowed: a finite number"),
-        (lambda: Conditions(stuck={"RF": None}), "stuck[RF] is None; allowed: a finite number"),
-        (lambda: PlantOptions(clearance="low"), "clearance is low; allowed: a finite number"),
+        (lambda: Conditions(payload="heavy"), "payload is 'heavy'; allowed: a finite number"),
+        (lambda: Conditions(stuck={"RF": None}), "stuck.RF is None; allowed: a finite number"),
+        (lambda: PlantOptions(clearance="low"), "clearance is 'low'; allowed: a finite number"),
         (lambda: Gait(("RF", "RH"), ("x",)), "relation of leg RH is x; "),
         (lambda: Gait(("RF", 3), (1.0,)), "leg 3 is not a name"),
         (lambda: Gait("RF", (1.0,)), "legs = 'RF' is not one entry per leg"),
@@ -158,25 +158,25 @@ def test_a_study_takes_arrays_and_paths(tmp_path: Path) -> None:
     rows = run_study(
         "mi",
         trials=np.int64(1),  # type: ignore[arg-type]
-        methods=np.array(["apnc"]),  # type: ignore[arg-type]
+        controllers=np.array(["apnc"]),  # type: ignore[arg-type]
         chosen={"mi": np.array([0.1, 0.2])},  # type: ignore[dict-item]
         duration=np.float32(0.5),  # type: ignore[arg-type]
         robot=ROBOTS / "hexapod.toml",  # type: ignore[arg-type]
         output=tmp_path,
     )
     usual = grid_of("mi", 1, ["apnc"], {"mi": [0.1, 0.2]}, 0.5, str(ROBOTS / "hexapod.toml"))
-    assert [row["key"] for row in rows] == [trial.place[-1] for trial in usual]
+    assert [row["key"] for row in rows] == [trial.id[-1] for trial in usual]
     stored = [json.loads(line) for line in (tmp_path / "trials.jsonl").read_text().splitlines()]
     assert {row["robot"] for row in stored} == {str(ROBOTS / "hexapod.toml")}
     assert {row["error"] for row in stored} == {""}
 
 
 def test_a_build_is_the_same() -> None:
-    own = BuildOptions(legs=4, fmi=2, memory=(1.0, 2.0, 0.5), settings={"xi": 0.25})
+    own = BuildOptions(legs=4, fmi=2, gait=(1.0, 2.0, 0.5), settings={"xi": 0.25})
     given = BuildOptions(
         legs=np.int64(4),  # type: ignore[arg-type]
         fmi=np.int8(2),  # type: ignore[arg-type]
-        memory=np.array([1.0, 2.0, 0.5]),  # type: ignore[arg-type]
+        gait=np.array([1.0, 2.0, 0.5]),  # type: ignore[arg-type]
         settings={"xi": QUARTER},
     )
     assert given == own and build_key(given) == build_key(own)

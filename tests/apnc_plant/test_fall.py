@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from apnc_plant.ground import Ground, GroundInC, Kerb, Plane
 from apnc_plant.library import library
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot import Body, RobotDescription, load_robot
+from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.signals import PlantError
 from exudyn_models.plant import Plant as ExudynPlant
 
@@ -99,8 +100,8 @@ def scaled(robot: RobotDescription, size: float) -> RobotDescription:
     def vector(v: tuple[float, float, float]) -> tuple[float, float, float]:
         return (v[0] * size, v[1] * size, v[2] * size)
 
-    def body(b: Body) -> Body:
-        return Body(b.mass * size**3, vector(b.size), vector(b.com))
+    def body(b: Any) -> Any:
+        return replace(b, mass=b.mass * size**3, size=vector(b.size), com=vector(b.com))
 
     legs = tuple(
         replace(
@@ -115,7 +116,7 @@ def scaled(robot: RobotDescription, size: float) -> RobotDescription:
         )
         for leg in robot.legs
     )
-    trunk = replace(robot.trunk, body=body(robot.trunk.body), center=vector(robot.trunk.center))
+    trunk = replace(body(robot.trunk), center=vector(robot.trunk.center))
     contact = replace(robot.contact, foot_radius=robot.contact.foot_radius * size)
     return replace(robot, legs=legs, trunk=trunk, contact=contact)
 

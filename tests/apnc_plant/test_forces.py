@@ -80,7 +80,7 @@ def test_friction_does_not_turn_a_foot_round_within_a_step(depth: float, speed: 
 def test_the_apparent_mass_of_a_foot_on_a_heavy_trunk_is_its_rotors_over_their_levers() -> None:
     light = replace(ROBOT.legs[0].tibia, mass=1e-9, size=(1e-3, 1e-3, 1e-3))
     legs = tuple(replace(leg, hip=light, femur=light, tibia=light) for leg in ROBOT.legs)
-    trunk = replace(ROBOT.trunk, body=replace(ROBOT.trunk.body, mass=1e9, size=(9.0, 9.0, 9.0)))
+    trunk = replace(ROBOT.trunk, mass=1e9, size=(9.0, 9.0, 9.0))
     robot = replace(ROBOT, legs=legs, trunk=trunk)
     leg, ground = robot.legs[0], Plane(slope=0.3)
     knee = leg.tibia_length * math.cos(leg.tibia_angle - leg.femur_angle)

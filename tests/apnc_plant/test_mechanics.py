@@ -120,7 +120,7 @@ def test_the_centre_of_mass_is_off_to_either_side_by_the_stated_amount(kind: Kin
         force, foot = sample["foot_force"], sample["foot_position"] - sample["position"]
         ground = foot - [0.0, 0.0, ROBOT.contact.foot_radius]
         moment = (ground[:, 1] * force[:, 2] - ground[:, 2] * force[:, 1]).sum()
-        offsets.append(moment / (ROBOT.trunk.body.mass * GRAVITY))
+        offsets.append(moment / (ROBOT.trunk.mass * GRAVITY))
     sizes = np.abs(offsets) / 0.004
     assert 0.7 < sizes.min() < sizes.max() < 1.3
     assert 2 <= np.sum(np.array(offsets) > 0.0) <= 6

@@ -140,6 +140,6 @@ def test_a_robot_stands_on_its_feet(loader: str, robot: str, tmp_path: Path) -> 
 def test_a_robot_that_falls_on_its_back_does_not_sink_in(loader: str, tmp_path: Path) -> None:
     found, trunk = loaded(loader, "lilibot", tmp_path), ROBOTS["lilibot"].trunk
     assert isinstance(found, Simulated)
-    top = trunk.center[2] + trunk.body.size[2] / 2.0
+    top = trunk.center[2] + trunk.size[2] / 2.0
     rest = found.rest(top + 0.01, pi)
     assert rest.height == pytest.approx(top, abs=0.003)

@@ -22,5 +22,5 @@ def odd_robot() -> RobotDescription:
         )
         for k, leg in enumerate(robot.legs)
     )
-    trunk = replace(robot.trunk, body=replace(robot.trunk.body, com=(0.0149, 0.003, -0.0044)))
+    trunk = replace(robot.trunk, com=(0.0149, 0.003, -0.0044))
     return replace(robot, name="odd", legs=legs, trunk=trunk)

@@ -30,8 +30,8 @@ TIMED: dict[str, Any] = {"real_time_factor": None, "fmu_share_of_wall_time": Non
 def several() -> list[Experiment]:
     """Runs of six kinds, of unequal length, one of which falls, more of a kind than lanes."""
     top_heavy = load_robot("lilibot")
-    body = replace(top_heavy.trunk.body, com=(-0.2, 0.0, 0.3))
-    top_heavy = replace(top_heavy, trunk=replace(top_heavy.trunk, body=body))
+    trunk = replace(top_heavy.trunk, com=(-0.2, 0.0, 0.3))
+    top_heavy = replace(top_heavy, trunk=trunk)
     return [
         *(replace(WALK, seed=seed, duration=0.5 + 0.1 * seed) for seed in range(11)),
         replace(WALK, robot=top_heavy, duration=5.0),
@@ -39,7 +39,7 @@ def several() -> list[Experiment]:
         replace(WALK, rate=30.0, conditions=((0.0, "S1"), (0.5, "C2"))),
         replace(WALK, ground=Obstacles(roughness=0.8, seed=3)),
         replace(WALK, ground=Kerb(at=0.05, height=0.004)),
-        replace(WALK, settings={"xi": 0.05}, method="tegotae", turn=((0.0, 0.0), (0.7, 1.0))),
+        replace(WALK, settings={"xi": 0.05}, controller="tegotae", turn=((0.0, 0.0), (0.7, 1.0))),
     ]
 
 

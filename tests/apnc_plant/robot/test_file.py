@@ -27,7 +27,7 @@ def test_lilibot_has_the_published_mass_and_leg_order() -> None:
 
 
 def test_box_inertia() -> None:
-    trunk = load_robot("lilibot").trunk.body
+    trunk = load_robot("lilibot").trunk
     expected = 1.3 / 12 * np.array([0.16**2 + 0.06**2, 0.26**2 + 0.06**2, 0.26**2 + 0.16**2])
     np.testing.assert_allclose(trunk.inertia(), np.diag(expected))
 
@@ -48,8 +48,16 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
         ("mass = 1.3", "mass = true", "trunk.mass is True"),
         ("mass = 1.3", "", "trunk.mass is missing"),
         ("mass = 1.3", "mass = 1.3\nmas = 2.0", "trunk.mas is 2.0; allowed: only"),
-        ("size = [0.26, 0.16, 0.06]", "size = [0.26, 0.16]", "trunk.size is [0.26, 0.16]"),
-        ("size = [0.26, 0.16, 0.06]", "size = [0.26, 0.0, 0.06]", "trunk.size"),
+        (
+            "size = [0.26, 0.16, 0.06]",
+            "size = [0.26, 0.16]",
+            "trunk.size is [0.26, 0.16]; allowed: 3 finite",
+        ),
+        (
+            "size = [0.26, 0.16, 0.06]",
+            "size = [0.26, 0.0, 0.06]",
+            "trunk.size[2] is 0.0; allowed: a",
+        ),
         ("tibia_angle = 92.0", "tibia_angle = 920.0", "leg.tibia_angle is 920.0"),
         (
             'name = "RH"',
@@ -80,7 +88,7 @@ def written(tmp_path: Path, text: str) -> str:
     ("old", "new", "expected"),
     [
         ('[[legs]]\nname = "RF"', '[[legs]]\nname = ""', "legs[1].name is ''; allowed: a name"),
-        ("mount = [-0.092, 0.066, 0.0]", "", "legs[4].mount is missing; allowed: three finite"),
+        ("mount = [-0.092, 0.066, 0.0]", "", "legs[4].mount is missing; allowed: 3 finite"),
         ("mount = [-0.092, 0.066, 0.0]", "mount = [0, 1]", "legs[4].mount is [0, 1]"),
         (
             "mount = [-0.092, 0.066, 0.0]",
@@ -92,19 +100,23 @@ def written(tmp_path: Path, text: str) -> str:
         (
             "mount = [-0.092, 0.066, 0.0]",
             "mount = [-0.092, -0.066, 0.0]",
-            "legs is '3 right (RF, RH, LH)'; allowed: 2 of 4 legs with y < 0",
+            "legs: 3 are right (RF, RH, LH); allowed: 2 of 4 legs with y < 0",
         ),
         (
             'component = "normal"',
             'component = "all"',
             "sensor.component is 'all'; allowed: normal or norm",
         ),
-        ('name = "lilibot"', "", "name is ''; allowed: a name"),
+        ('name = "lilibot"', "", "name is missing; allowed: a name"),
         ("[servo]", "[controller]\nxj = 1\n[servo]", "parameter 'xj' is not one of Ts, robot_w"),
         ("[servo]", "[controller]\nxi = 7\n[servo]", "xi = 7; allowed: a number from 0 to 1"),
-        ("[servo]", "[controller]\nTs = 0.1\n[servo]", "controller.Ts is 0.1; allowed: param"),
+        ("[servo]", "[controller]\nTs = 0.1\n[servo]", "controller: Ts is 0.1; allowed: param"),
         ('name = "lilibot"', 'name = "a"\ncontroller = 3', "controller is 3; allowed: a table"),
-        ('name = "lilibot"', 'name = "a"\nheight = 3', "height is 3; allowed: only contact, contr"),
+        (
+            'name = "lilibot"',
+            'name = "a"\nheight = 3',
+            "height is 3; allowed: only contact, controller, leg, legs, n",
+        ),
         ("[servo]", "[servo]\nforce = 3", "servo.force is 3; allowed: only damping, latency"),
     ],
 )
@@ -119,11 +131,19 @@ def test_what_is_wrong_is_named_with_its_place(
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("legs", ["", "legs = []", "legs = 3", "legs = [1]"])
-def test_a_robot_without_legs_is_refused(tmp_path: Path, legs: str) -> None:
+@pytest.mark.parametrize(
+    ("legs", "line"),
+    [
+        ("", "legs is missing; allowed: a list of tables, at least 1"),
+        ("legs = []", r"legs is \[\]; allowed: a list of tables, at least 1"),
+        ("legs = 3", "legs is 3; allowed: a list of tables, at least 1"),
+        ("legs = [1]", r"legs\[1\] is 1; allowed: a table"),
+    ],
+)
+def test_a_robot_without_legs_is_refused(tmp_path: Path, legs: str, line: str) -> None:
     start, rest = LILIBOT.index("[[legs]]"), LILIBOT.index("[servo]")
     text = legs + "\n" + LILIBOT[:start] + LILIBOT[rest:]
-    with pytest.raises(RobotDescriptionError, match=r"legs is .*; allowed: a list of tables"):
+    with pytest.raises(RobotDescriptionError, match=line):
         load_robot(written(tmp_path, text))
 
 
@@ -201,7 +221,9 @@ def test_a_robot_made_in_code_is_checked_too() -> None:
     robot = load_robot("lilibot")
     with pytest.raises(RobotDescriptionError, match=r"friction is -0.1; allowed"):
         replace(robot.contact, friction=-0.1)
-    with pytest.raises(RobotDescriptionError, match=r"legs is .*allowed: 1 of 2 legs with y < 0"):
+    with pytest.raises(
+        RobotDescriptionError, match=r"legs: 2 are right .*allowed: 1 of 2 legs with y < 0"
+    ):
         replace(robot, legs=robot.legs[:2])
 
 

@@ -89,7 +89,7 @@ def test_what_touches_are_boxes_of_trunk_and_upper_links_and_balls(
         for link in links
     }
     expected: dict[str, list[dict[str, str]]] = {
-        "trunk": [{"size": " ".join(map(str, robot.trunk.body.size))}]
+        "trunk": [{"size": " ".join(map(str, robot.trunk.size))}]
     }
     ball = {"radius": str(robot.contact.foot_radius)}
     for leg in robot.legs:
