@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from apnc.loop.record import End, Record
     from apnc.loop.simulate import simulate
     from apnc.report.folder import write_run as write_report
-    from apnc.studies.engine import run_study
+    from apnc.studies.runner import run_study
     from apnc.summary import Summary, summarise
     from apnc_plant.conditions import Conditions
     from apnc_plant.ground import Ground, Kerb, Obstacles, Plane, Waves
@@ -36,7 +36,7 @@ _PLACES: Final = {
     "simulate": "apnc.loop.simulate",
     "simulate_many": "apnc.loop.many",
     "write_report": "apnc.report.folder:write_run",
-    "run_study": "apnc.studies.engine",
+    "run_study": "apnc.studies.runner",
     **dict.fromkeys(("Summary", "summarise"), "apnc.summary"),
     "Conditions": "apnc_plant.conditions",
     **dict.fromkeys(("Ground", "Kerb", "Obstacles", "Plane", "Waves"), "apnc_plant.ground"),

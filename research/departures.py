@@ -9,11 +9,11 @@ import numpy as np
 
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
-from apnc.studies.rows import Row, matching, successes, values
+from apnc.studies.results import Result, matching, successes, values
 from apnc.studies.states.measure import STOPPED
 from apnc.studies.states.measure import measure as judged
 from apnc.studies.states.timeline import TIMELINE
-from apnc.studies.study import COURSE_MI, WALK_MI, Study
+from apnc.studies.study import SCHEDULE_MI, WALK_MI, Study
 from apnc.studies.table import markdown, middle
 from apnc_core.schema import Causality
 from apnc_core.settings import SettingLike
@@ -51,7 +51,7 @@ WALKS: Final[Mapping[str, Mapping[str, Any]]] = {
     "MI 0.15": {"mi": 0.15},
     "MI 0.28": {"mi": 0.28},
     "C4": {"mi": WALK_MI, "conditions": "C4"},
-    "C3": {"mi": COURSE_MI, "conditions": "C3"},
+    "C3": {"mi": SCHEDULE_MI, "conditions": "C3"},
 }
 """Walks by name: what of the experiment is asked for."""
 
@@ -61,15 +61,15 @@ WALK_S: Final = 25.0
 """Length of the walks [s]."""
 
 
-def experiment(method: str, seed: int, removed: str, task: str) -> Experiment:
+def experiment(controller: str, seed: int, removed: str, task: str) -> Experiment:
     """A walk, or the run through the states S1 to S3, without one departure."""
     if task == STATES:
-        return TIMELINE.experiment(method, seed, settings=REMOVED[removed])
-    walk: dict[str, Any] = {"method": method, "seed": seed, "settings": REMOVED[removed]}
+        return TIMELINE.experiment(controller, seed, settings=REMOVED[removed])
+    walk: dict[str, Any] = {"controller": controller, "seed": seed, "settings": REMOVED[removed]}
     return Experiment(duration=WALK_S, **walk, **WALKS[task])
 
 
-def measure(record: Record) -> Row:
+def measure(record: Record) -> Result:
     """What became of the gait in S1 to S3, for the run through them.
 
     Returns:
@@ -84,24 +84,26 @@ def measure(record: Record) -> Row:
     return judged(record) | {STOP_MOVES: moves}
 
 
-def table(rows: Sequence[Row]) -> str:
+def table(results: Sequence[Result]) -> str:
     """A line per departure: runs that form the strict trot, a speed, runs through S1 to S3."""
-    return markdown(_line(removed, matching(rows, removed=removed)) for removed in _in_order(rows))
+    return markdown(
+        _line(removed, matching(results, removed=removed)) for removed in _in_order(results)
+    )
 
 
-def _in_order(rows: Sequence[Row]) -> list[str]:
-    return list(dict.fromkeys(row["removed"] for row in rows))
+def _in_order(results: Sequence[Result]) -> list[str]:
+    return list(dict.fromkeys(result["removed"] for result in results))
 
 
-def _line(removed: str, rows: Sequence[Row]) -> dict[str, str]:
+def _line(removed: str, results: Sequence[Result]) -> dict[str, str]:
     names = REMOVED[removed]
     entries = {"as printed": ", ".join(f"{n} = {_text(v)}" for n, v in names.items()) or NONE}
     for task in WALKS:
-        hits = successes(matching(rows, task=task))
+        hits = successes(matching(results, task=task))
         entries[f"trot, {task}"] = f"{sum(hits)}/{len(hits)}"
-    speeds = values(matching(rows, task="MI 0.15"), "late_speed_m_per_s")
+    speeds = values(matching(results, task="MI 0.15"), "late_speed_m_per_s")
     entries["speed at MI 0.15 [m/s]"] = middle(speeds, 3)
-    runs = matching(rows, task=STATES)
+    runs = matching(results, task=STATES)
     for state in ("S1", "S2", "S3"):
         entries[state] = f"{sum(bool(run.get(f'state_{state}')) for run in runs)}/{len(runs)}"
     stops = [run.get(STOP_MOVES) is False for run in runs]
@@ -117,7 +119,7 @@ STUDY: Final = Study(
     STUDIES["departures"],
     experiment,
     {"removed": tuple(REMOVED), "task": (*WALKS, STATES)},
-    methods=("apnc",),
+    controllers=("apnc",),
     measure=measure,
     table=table,
 )

@@ -12,7 +12,16 @@ from apnc.loop.record import Record
 from apnc.report.figure import Figure
 from apnc.studies.claims import NO, Claim, Finding, Rule, both_criteria, verdict
 from apnc.studies.plots import CRITERIA, side_by_side
-from apnc.studies.rows import AUTHORS, SPEED, STRICT, Row, cells_in, matching, successes, values
+from apnc.studies.results import (
+    AUTHORS,
+    SPEED,
+    STRICT,
+    Result,
+    cells_in,
+    matching,
+    successes,
+    values,
+)
 from apnc.studies.statistics import median, rate
 from apnc.studies.study import Study
 from apnc.studies.table import markdown, middle
@@ -35,13 +44,13 @@ LAST: Final = 5.0
 FORMING, LATE = "gain_forming", "gain_late"
 
 
-def experiment(method: str, seed: int, model: str, mi: float) -> Experiment:
+def experiment(controller: str, seed: int, model: str, mi: float) -> Experiment:
     """A walk with a forward model."""
     settings = {"forward_model": ForwardModel[model]}
-    return Experiment(method=method, seed=seed, mi=mi, duration=25.0, settings=settings)
+    return Experiment(controller=controller, seed=seed, mi=mi, duration=25.0, settings=settings)
 
 
-def measure(record: Record) -> Row:
+def measure(record: Record) -> Result:
     """Gain of Eq. 9, mean over the legs: until the couplings switch on, and over the last 5 s.
 
     ``feedback_kept`` does not count. None if they never do, or have not by then, or for a run that
@@ -59,9 +68,9 @@ def measure(record: Record) -> Row:
 def forms(model: str) -> Rule:
     """Every trial with a model forms the gait; nine of ten are 'partly'."""
 
-    def check(rows: Sequence[Row], column: str) -> Finding:
-        hits = rate(successes(rows, column, model=model))
-        own, printed = (median(values(rows, column, model=m)) for m in (model, PRINTED))
+    def check(results: Sequence[Result], column: str) -> Finding:
+        hits = rate(successes(results, column, model=model))
+        own, printed = (median(values(results, column, model=m)) for m in (model, PRINTED))
         text = f"{hits}, {own.text(1, 's')}, with the hip's {printed.text(1, 's')}"
         return Finding(text, verdict(hits.value == 1.0, hits.value >= 0.9))
 
@@ -71,10 +80,10 @@ def forms(model: str) -> Rule:
 def gain_falls(model: str) -> Rule:
     """The interval of the gain, late over forming, ends below a half; below 1 is 'partly'."""
 
-    def rule(rows: Sequence[Row]) -> Finding:
-        both = [r for r in matching(rows, model=model) if r.get(FORMING) and r.get(LATE)]
+    def rule(results: Sequence[Result]) -> Finding:
+        both = [r for r in matching(results, model=model) if r.get(FORMING) and r.get(LATE)]
         forming, late = (median(values(both, column)) for column in (FORMING, LATE))
-        ratio = median([row[LATE] / row[FORMING] for row in both])
+        ratio = median([result[LATE] / result[FORMING] for result in both])
         text = f"{forming.text(3)}, late {late.text(3)}, ratio {ratio.text(2)}, n = {ratio.size}"
         if not both:
             return Finding(text, NO)
@@ -83,12 +92,14 @@ def gain_falls(model: str) -> Rule:
     return rule
 
 
-def figures(rows: Sequence[Row]) -> list[Figure]:
+def figures(results: Sequence[Result]) -> list[Figure]:
     """Times, speed, and the gain while the gait forms and late, by model and MI."""
-    cells = [(label, name, mi) for name, label in MODELS.items() for mi in cells_in(rows, "mi")]
+    cells = [(label, name, mi) for name, label in MODELS.items() for mi in cells_in(results, "mi")]
 
     def by_cell(column: str) -> dict[str, list[float]]:
-        return {f"{label}, {mi:g}": values(rows, column, model=m, mi=mi) for label, m, mi in cells}
+        return {
+            f"{label}, {mi:g}": values(results, column, model=m, mi=mi) for label, m, mi in cells
+        }
 
     shown = (
         (STRICT, "Convergence, strict", CRITERIA[STRICT], "convergence time [s]"),
@@ -104,7 +115,7 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
     ]
 
 
-def table(rows: Sequence[Row]) -> str:
+def table(results: Sequence[Result]) -> str:
     """A line per model and MI: medians, smallest and largest."""
     return markdown(
         {
@@ -118,8 +129,8 @@ def table(rows: Sequence[Row]) -> str:
             "gain in the last 5 s": middle(values(own, LATE), 3),
         }
         for model, label in MODELS.items()
-        for mi in cells_in(rows, "mi")
-        if (own := matching(rows, model=model, mi=mi))
+        for mi in cells_in(results, "mi")
+        if (own := matching(results, model=model, mi=mi))
     )
 
 
@@ -137,7 +148,7 @@ STUDY: Final = Study(
     STUDIES["forward_model"],
     experiment,
     {"model": tuple(MODELS), "mi": (0.08, 0.15, 0.24)},
-    methods=("apnc",),
+    controllers=("apnc",),
     measure=measure,
     claims=CLAIMS,
     figures=figures,

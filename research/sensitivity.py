@@ -8,8 +8,8 @@ from typing import Any, Final
 import numpy as np
 
 from apnc.loop.experiment import Experiment
+from apnc.studies.results import SPEED, STRICT, Result, cells_in, is_number, matching, values
 from apnc.studies.robots import changed, constant
-from apnc.studies.rows import SPEED, STRICT, Row, cells_in, is_number, matching, values
 from apnc.studies.study import WALK_S, Study
 from apnc.studies.table import markdown, middle
 from apnc_plant.robot import RobotDescription, load_robot
@@ -30,7 +30,7 @@ def _times(path: str, factor: float) -> Change:
 def _shifted(ahead: float = 0.0, up: float = 0.0) -> Change:
     """The centre of mass of the trunk moved [m]."""
     return lambda robot: changed(
-        robot, "trunk.body.com", lambda com: (com[0] + ahead, com[1], com[2] + up)
+        robot, "trunk.com", lambda com: (com[0] + ahead, com[1], com[2] + up)
     )
 
 
@@ -97,53 +97,55 @@ def seeds(cell: Mapping[str, Any], trials: int) -> int:
     return trials if cell["mi"] in USUAL_MI or cell["change"] in OVER_MI else 0
 
 
-def experiment(method: str, seed: int, change: str, mi: float) -> Experiment:
+def experiment(controller: str, seed: int, change: str, mi: float) -> Experiment:
     """A walk of the changed robot."""
     robot = CHANGES[change](load_robot("lilibot"))
-    return Experiment(robot=robot, method=method, seed=seed, mi=mi, duration=WALK_S)
+    return Experiment(robot=robot, controller=controller, seed=seed, mi=mi, duration=WALK_S)
 
 
-def table(rows: Sequence[Row]) -> str:
+def table(results: Sequence[Result]) -> str:
     """A line per change, strict times and mean speed at every MI that all walked at.
 
     "-" did not form. Then duty factor and speed over MI, of what walks at more than two of them.
     """
-    changes, mis = _in_order(rows), cells_in(rows, "mi")
-    common = [mi for mi in mis if all(matching(rows, change=c, mi=mi) for c in changes)]
-    text = markdown(_line(c, matching(rows, change=c), common) for c in changes)
+    changes, mis = _in_order(results), cells_in(results, "mi")
+    common = [mi for mi in mis if all(matching(results, change=c, mi=mi) for c in changes)]
+    text = markdown(_line(c, matching(results, change=c), common) for c in changes)
     over = [c for c in changes if c in OVER_MI and len(mis) > len(USUAL_MI)]
-    return f"{text}\n{markdown(_duty(matching(rows, change=c), c) for c in over)}" if over else text
+    return (
+        f"{text}\n{markdown(_duty(matching(results, change=c), c) for c in over)}" if over else text
+    )
 
 
-def _duty(rows: Sequence[Row], change: str) -> dict[str, str]:
+def _duty(results: Sequence[Result], change: str) -> dict[str, str]:
     entries = {"change": change}
-    for mi in cells_in(rows, "mi"):
-        duty, speed = (middle(values(rows, c, mi=mi), d) for c, d in ((DUTY, 2), (SPEED, 3)))
+    for mi in cells_in(results, "mi"):
+        duty, speed = (middle(values(results, c, mi=mi), d) for c, d in ((DUTY, 2), (SPEED, 3)))
         entries |= {f"MI {mi:.2f}: duty factor": duty, f"MI {mi:.2f}: speed [m/s]": speed}
     return entries
 
 
-def _in_order(rows: Sequence[Row]) -> list[str]:
-    return list(dict.fromkeys(row["change"] for row in rows))
+def _in_order(results: Sequence[Result]) -> list[str]:
+    return list(dict.fromkeys(result["change"] for result in results))
 
 
-def _line(change: str, rows: Sequence[Row], mis: Sequence[float]) -> dict[str, str]:
+def _line(change: str, results: Sequence[Result], mis: Sequence[float]) -> dict[str, str]:
     entries = {"change": change}
     for mi in mis:
-        own = matching(rows, mi=mi)
-        times = [row.get(STRICT) for row in own]
+        own = matching(results, mi=mi)
+        times = [result.get(STRICT) for result in own]
         shown = (f"{time:.1f}" if is_number(time) else "-" for time in times)
         speed = values(own, SPEED)
         entries[f"MI {mi:.2f}: trot after [s]"] = ", ".join(shown)
         entries[f"MI {mi:.2f}: speed [m/s]"] = f"{np.mean(speed):.3f}" if speed else "-"
-    return entries | {"fell": f"{len(matching(rows, fell=True))}/{len(rows)}"}
+    return entries | {"fell": f"{len(matching(results, fell=True))}/{len(results)}"}
 
 
 STUDY: Final = Study(
     STUDIES["sensitivity"],
     experiment,
     {"change": tuple(CHANGES), "mi": MI_VALUES},
-    methods=("apnc",),
+    controllers=("apnc",),
     seeds=seeds,
     table=table,
 )

@@ -13,8 +13,8 @@ from apnc import metrics
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.studies.claims import FEW, Claim, Finding, verdict
+from apnc.studies.results import STRICT, Result, values
 from apnc.studies.robots import symmetric
-from apnc.studies.rows import STRICT, Row, values
 from apnc.studies.statistics import median, of_runs
 from apnc.studies.study import WALK_S, Study
 from apnc_plant.robot import load_robot
@@ -27,13 +27,13 @@ MIN_RUNS: Final = 3
 """Fewer MI than this give no verdict."""
 
 
-def experiment(method: str, seed: int, mi: float) -> Experiment:
+def experiment(controller: str, seed: int, mi: float) -> Experiment:
     """A walk of the symmetric robot."""
     robot = symmetric(load_robot("lilibot"))
-    return Experiment(robot=robot, method=method, seed=seed, mi=mi, duration=WALK_S)
+    return Experiment(robot=robot, controller=controller, seed=seed, mi=mi, duration=WALK_S)
 
 
-def measure(record: Record) -> Row:
+def measure(record: Record) -> Result:
     """When a leg was first more than 0.6 rad from the phase of another [s], None if never."""
     o1, o2 = record.signals["o1"], record.signals["o2"]
     error = metrics.phase_error(o1, o2, (0.0,) * (len(record.legs) - 1))
@@ -41,16 +41,16 @@ def measure(record: Record) -> Row:
     return {PARTED: float(apart[0]) if len(apart) else None}
 
 
-def in_phase(rows: Sequence[Row]) -> Finding:
+def in_phase(results: Sequence[Result]) -> Finding:
     """The legs stay in phase at every MI; at some is 'partly'."""
-    parted, trots = values(rows, PARTED), values(rows, STRICT)
+    parted, trots = values(results, PARTED), values(results, STRICT)
     text = (
-        f"parted after {median(parted).text(1, 's', len(rows))}; "
-        f"trot after {median(trots).text(1, 's', len(rows))}"
+        f"parted after {median(parted).text(1, 's', len(results))}; "
+        f"trot after {median(trots).text(1, 's', len(results))}"
     )
-    together = len(rows) - len(parted)
-    found = verdict(together == len(rows), together > 0) if len(rows) >= MIN_RUNS else FEW
-    return Finding(f"together in {of_runs(together, len(rows))}; {text}", found)
+    together = len(results) - len(parted)
+    found = verdict(together == len(results), together > 0) if len(results) >= MIN_RUNS else FEW
+    return Finding(f"together in {of_runs(together, len(results))}; {text}", found)
 
 
 CLAIM: Final = "if all loads are equal the legs stay in phase and no gait forms"
@@ -59,7 +59,7 @@ STUDY: Final = Study(
     STUDIES["symmetry"],
     experiment,
     {"mi": (0.08, 0.12, 0.16, 0.2, 0.24)},
-    methods=("apnc",),
+    controllers=("apnc",),
     seeds=lambda cell, trials: 1,
     measure=measure,
     claims=(Claim("4.1.1", CLAIM, in_phase, seeds=1),),

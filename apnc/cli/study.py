@@ -16,7 +16,7 @@ from typer import Option
 import apnc
 from apnc.cli.console import Number, Text, bar, say, writable
 from apnc.cli.interrupt import STOP, Interrupted
-from apnc.studies.registry import ALL, METHODS, ROBOT, STUDIES, Entry, Registry
+from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry, Registry
 
 _ABOUT: Final = {ROBOT: "Its name or file."}
 
@@ -79,7 +79,7 @@ def _run(
 
         rows = apnc.run_study(
             name,
-            methods=chosen.pop(METHODS, None),
+            controllers=chosen.pop(CONTROLLERS_OPTION, None),
             chosen=chosen,
             workers=workers if workers is not None else os.cpu_count() or 1,
             output=writable(output),
@@ -97,7 +97,7 @@ def _run(
 
 def about(entry: Entry) -> str:
     """What a study is, in a line."""
-    return f"{entry.title} ({entry.place or 'not in the paper'})"
+    return f"{entry.title} ({entry.section or 'not in the paper'})"
 
 
 def _add(name: str, axes: tuple[str, ...], words: str) -> None:
@@ -107,4 +107,4 @@ def _add(name: str, axes: tuple[str, ...], words: str) -> None:
 
 for _each in STUDIES.values():
     _add(_each.name, _each.options, about(_each))
-_add(ALL, (METHODS, ROBOT), "All of the paper's studies in one report")
+_add(ALL, (CONTROLLERS_OPTION, ROBOT), "All of the paper's studies in one report")

@@ -1,26 +1,46 @@
-"""Plots of rows: boxes or points per cell and method, and marks of success."""
+"""Plots of results: boxes or points per cell and controller, and marks of success."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Final, NamedTuple
 
+from apnc.controllers import named_controller
 from apnc.report import theme
 from apnc.report.figure import Figure, Trace
-from apnc.studies.contenders import contender
-from apnc.studies.rows import (
+from apnc.studies.results import (
     AUTHORS,
     STRICT,
-    Row,
+    Result,
     cells_in,
+    controllers_in,
     is_number,
     matching,
-    methods_in,
     successes,
     values,
 )
 from apnc.studies.statistics import of_runs
+
+
+class Look(NamedTuple):
+    """How a controller is drawn: a colour of the theme and a symbol of the plots."""
+
+    colour: str
+    symbol: str
+
+
+LOOKS: Final[Mapping[str, Look]] = {
+    "apnc": Look(theme.BLUE, "circle"),
+    "apc": Look(theme.SKY, "circle-open"),
+    "tegotae": Look(theme.ORANGE, "diamond-open"),
+    "tegotae_best": Look(theme.VERMILLION, "diamond"),
+    "phase_reset": Look(theme.GREEN, "triangle-up-open"),
+    "phase_reset_best": Look(theme.PURPLE, "triangle-up"),
+    "apnc_kept": Look(theme.GREY, "square"),
+    "apnc_printed": Look(theme.BLACK, "square-open"),
+}
+"""By label of the controller."""
 
 MIN_BOX: Final = 5
 """Fewer values than this are shown one by one, without quartiles."""
@@ -32,10 +52,12 @@ CRITERIA: Final = {
 COLOURS: Final = (theme.BLUE, theme.ORANGE, theme.GREEN, theme.PURPLE, theme.VERMILLION, theme.SKY)
 
 
-def counted(rows: Sequence[Row], column: str, method: str) -> str:
-    """Name of a contender, with the number of its runs that have a figure."""
-    runs = matching(rows, method=method)
-    return f"{contender(method).name}, n = {of_runs(len(values(runs, column)), len(runs))}"
+def counted(results: Sequence[Result], column: str, controller: str) -> str:
+    """Name of a controller, with the number of its runs that have a figure."""
+    runs = matching(results, controller=controller)
+    return (
+        f"{named_controller(controller).name}, n = {of_runs(len(values(runs, column)), len(runs))}"
+    )
 
 
 def spread(
@@ -57,21 +79,21 @@ def spread(
 
 
 def over_axis(
-    rows: Sequence[Row], axis: tuple[str, str], column: str, label: str, note: str = ""
+    results: Sequence[Result], axis: tuple[str, str], column: str, label: str, note: str = ""
 ) -> Figure:
-    """A column over an axis (its name and title), per method."""
+    """A column over an axis (its name and title), per controller."""
     traces = []
-    for method in methods_in(rows):
+    for controller in controllers_in(results):
         points = [
-            (str(row[axis[0]]), float(row[column]))
-            for row in matching(rows, method=method)
-            if is_number(row.get(column))
+            (str(result[axis[0]]), float(result[column]))
+            for result in matching(results, controller=controller)
+            if is_number(result.get(column))
         ]
-        look = contender(method)
-        traces += spread(points, counted(rows, column, method), look.colour, look.symbol)
+        look = LOOKS[controller]
+        traces += spread(points, counted(results, column, controller), look.colour, look.symbol)
     title = label.split(" [", maxsplit=1)[0].capitalize()
-    cells = [str(cell) for cell in cells_in(rows, axis[0])]
-    return _figure(f"{rows[0]['study']}-{column}", title, note, traces, cells, axis[1], label)
+    cells = [str(cell) for cell in cells_in(results, axis[0])]
+    return _figure(f"{results[0]['study']}-{column}", title, note, traces, cells, axis[1], label)
 
 
 def _figure(
@@ -88,23 +110,25 @@ def _figure(
     return Figure(key, title, note, data, layout, over_time=False)
 
 
-def convergence(rows: Sequence[Row], axis: tuple[str, str]) -> list[Figure]:
+def convergence(results: Sequence[Result], axis: tuple[str, str]) -> list[Figure]:
     """By each criterion: times of the trials that converged, and above them their share."""
-    return [_convergence(rows, axis, column) for column in CRITERIA]
+    return [_convergence(results, axis, column) for column in CRITERIA]
 
 
-def _convergence(rows: Sequence[Row], axis: tuple[str, str], column: str) -> Figure:
+def _convergence(results: Sequence[Result], axis: tuple[str, str], column: str) -> Figure:
     note = f"By the {CRITERIA[column]}. Below: trials that converged; marks above: their share."
-    figure = over_axis(rows, axis, column, "convergence time [s]", note)
+    figure = over_axis(results, axis, column, "convergence time [s]", note)
     figure = replace(figure, title=f"Convergence, {CRITERIA[column].split(':')[0]}")
-    cells = cells_in(rows, axis[0])
-    for method in methods_in(rows):
-        label, (_, name, colour, symbol, *_) = counted(rows, column, method), contender(method)
-        hits = [successes(rows, column, method=method, **{axis[0]: cell}) for cell in cells]
+    cells = cells_in(results, axis[0])
+    for controller in controllers_in(results):
+        label, name = counted(results, column, controller), named_controller(controller).name
+        hits = [
+            successes(results, column, controller=controller, **{axis[0]: cell}) for cell in cells
+        ]
         share = [100.0 * sum(hit) / len(hit) if hit else None for hit in hits]
         look = {
-            "symbol": symbol,
-            "color": colour,
+            "symbol": LOOKS[controller].symbol,
+            "color": LOOKS[controller].colour,
             "size": 9,
             "line": {"color": theme.INK},
         }

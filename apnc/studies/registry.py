@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 ALL: Final = "all"
 """The name that means every experiment of the paper."""
 
-METHODS: Final = "methods"
+CONTROLLERS_OPTION: Final = "controllers"
 """The option of studies that compare controllers."""
 
 ROBOT: Final = "robot"
@@ -21,15 +21,15 @@ class Entry(NamedTuple):
     Args:
         name: of the study and of its module in the package, which holds it as ``STUDY``.
         title: of its report.
-        place: where the paper has it, empty for a study of the model itself.
-        options: what may be chosen besides the number of trials: methods, the robot, or axes of
+        section: of the paper, or its figures; empty for a study of the model itself.
+        options: what may be chosen besides the number of trials: controllers, the robot, or axes of
             the grid.
         package: that holds the module.
     """
 
     name: str
     title: str
-    place: str = ""
+    section: str = ""
     options: tuple[str, ...] = ()
     package: str = "apnc.studies"
 
@@ -41,14 +41,14 @@ Registry = Mapping[str, Entry]
 STUDIES: Final[Registry] = {
     entry.name: entry
     for entry in (
-        Entry("mi", "Stepping frequencies", "Fig. 4, S4, S5", (METHODS, ROBOT, "mi")),
-        Entry("rate", "Update rates", "Fig. 5", (METHODS, ROBOT, "rate")),
-        Entry("terrain", "Rough terrain", "Fig. 6", (METHODS, ROBOT, "roughness")),
-        Entry("conditions", "Robot conditions", "Fig. 7", (METHODS, ROBOT, "condition")),
-        Entry("damage", "Damaged leg", "Fig. 8", (METHODS, ROBOT)),
+        Entry("mi", "Stepping frequencies", "Fig. 4, S4, S5", (CONTROLLERS_OPTION, ROBOT, "mi")),
+        Entry("rate", "Update rates", "Fig. 5", (CONTROLLERS_OPTION, ROBOT, "rate")),
+        Entry("terrain", "Rough terrain", "Fig. 6", (CONTROLLERS_OPTION, ROBOT, "roughness")),
+        Entry("conditions", "Robot conditions", "Fig. 7", (CONTROLLERS_OPTION, ROBOT, "condition")),
+        Entry("damage", "Damaged leg", "Fig. 8", (CONTROLLERS_OPTION, ROBOT)),
         Entry("states", "Motor memory", "Fig. 9-12", (ROBOT,)),
-        Entry("steering", "Speed and direction", "Fig. 13, 14", (ROBOT, "course")),
-        Entry("gains", "Strength of the feedback", "4.1", (METHODS, "mi", "gain")),
+        Entry("steering", "Speed and direction", "Fig. 13, 14", (ROBOT, "schedule")),
+        Entry("gains", "Strength of the feedback", "4.1", (CONTROLLERS_OPTION, "mi", "gain")),
         Entry("gait", "How it walks", "", (ROBOT, "mi")),
     )
 }
@@ -61,7 +61,7 @@ def names_of(name: str, studies: Registry = STUDIES) -> list[str]:
         ValueError: an unknown name.
     """
     if name == ALL:
-        return [entry.name for entry in studies.values() if entry.place]
+        return [entry.name for entry in studies.values() if entry.section]
     if name not in studies:
         raise ValueError(f"study '{name}' is not one of {', '.join(studies)}, {ALL}")
     return [name]

@@ -8,16 +8,15 @@ from functools import partial
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from apnc.controllers import named_controller
 from apnc.loop.provenance import what_was_run
 from apnc.report.figure import Figure
 from apnc.report.folder import Write
 from apnc.report.html import page
 from apnc.studies.claims import Claim, Finding, findings
-from apnc.studies.contenders import contender
 from apnc.studies.machine import commit, processor
 from apnc.studies.plots import CRITERIA
-from apnc.studies.rows import Row, matching, methods_in
-from apnc.studies.store import place_of
+from apnc.studies.results import Result, columns_of, controllers_in, id_of, matching
 from apnc.studies.study import Study, Trial, load
 from apnc.studies.table import markdown
 
@@ -35,22 +34,22 @@ class Part(NamedTuple):
 
 
 def files_of(
-    grid: Sequence[Trial], rows: Sequence[Row], wall_s: float, *, scenes: bool
+    grid: Sequence[Trial], results: Sequence[Result], wall_s: float, *, scenes: bool
 ) -> dict[str, Write]:
     """What writes each file of a study's folder, by its name.
 
     Args:
         grid: trials asked for.
-        rows: of those that were run.
-        wall_s: wall time that the rows took [s].
+        results: of those that were run.
+        wall_s: wall time that the results took [s].
         scenes: run single experiments again to show them over time.
     """
     parts = [
         part_of(load(entry), [trial for trial in grid if trial.entry == entry], own, scenes)
         for entry in dict.fromkeys(trial.entry for trial in grid)
-        if (own := matching(rows, study=entry.name))
+        if (own := matching(results, study=entry.name))
     ]
-    facts = _facts(grid, rows, wall_s)
+    facts = _facts(grid, results, wall_s)
     texts = {
         "report.html": page(
             "study.html.j2",
@@ -63,59 +62,67 @@ def files_of(
     }
     for part in parts:
         if part.study.table is not None:
-            own = matching(rows, study=part.study.name)
+            own = matching(results, study=part.study.name)
             texts[f"{part.study.name}.md"] = part.study.table(own)
-    files: dict[str, Write] = {TABLE_FILE: partial(write_table, rows)}
+    files: dict[str, Write] = {TABLE_FILE: partial(write_table, results)}
     for name, text in texts.items():
         files[name] = partial(Path.write_text, data=text, encoding="utf-8")
     return files
 
 
-def part_of(study: Study, grid: Sequence[Trial], rows: Sequence[Row], scenes: bool) -> Part:
-    """What the report shows of the rows of one study."""
-    commands = {trial.place: trial.experiment.command() for trial in grid}
+def part_of(study: Study, grid: Sequence[Trial], results: Sequence[Result], scenes: bool) -> Part:
+    """What the report shows of the results of one study."""
+    commands = {trial.id: trial.experiment.command() for trial in grid}
     failed = [
-        (row["error"] or row["end"], commands[place_of(row)])
-        for row in rows
-        if row["end"] != "complete"
+        (result["error"] or result["end"], commands[id_of(result)])
+        for result in results
+        if result["end"] != "complete"
     ]
     shown = study.scenes(grid[0].experiment.robot) if scenes else []
-    figures = [*study.figures(rows), *shown]
-    return Part(study, _asked(study, grid, rows), findings(rows, study.claims), failed, figures)
+    figures = [*study.figures(results), *shown]
+    return Part(
+        study, _asked(study, grid, results), findings(results, study.claims), failed, figures
+    )
 
 
-def _asked(study: Study, grid: Sequence[Trial], rows: Sequence[Row]) -> list[tuple[str, str]]:
-    """Robot, duration, methods and seeds, and what was asked for and not run."""
-    run = methods_in(rows)
-    methods = "; ".join(_told(study, method) for method in run)
-    if missing := [contender(method).name for method in study.methods if method not in run]:
-        methods += f"; not run: {', '.join(missing)}"
+def _asked(study: Study, grid: Sequence[Trial], results: Sequence[Result]) -> list[tuple[str, str]]:
+    """Robot, duration, controllers and seeds, and what was asked for and not run."""
+    run = controllers_in(results)
+    controllers = "; ".join(_told(study, controller) for controller in run)
+    if missing := [
+        named_controller(controller).name
+        for controller in study.controllers
+        if controller not in run
+    ]:
+        controllers += f"; not run: {', '.join(missing)}"
     robots = sorted({trial.experiment.description.name for trial in grid})
     engines = sorted({trial.experiment.engine for trial in grid})
     spans = sorted({trial.experiment.duration for trial in grid})
     return [
-        ("where", study.entry.place or "not in the paper"),
+        ("where", study.entry.section or "not in the paper"),
         ("robot", ", ".join(robots)),
         ("engine", ", ".join(engines)),
         ("duration", ", ".join(f"{span:g} s" for span in spans)),
-        ("methods", methods),
-        ("seeds", str(len({row["seed"] for row in rows}))),
-        ("trials", f"{len(rows)} of {len(grid)}"),
+        ("controllers", controllers),
+        ("seeds", str(len({result["seed"] for result in results}))),
+        ("trials", f"{len(results)} of {len(grid)}"),
         ("criteria", "; ".join(CRITERIA.values())),
     ]
 
 
 def _told(study: Study, label: str) -> str:
-    """Name of a contender and its settings."""
-    used = contender(label)
+    """Name of a controller and its settings."""
+    used = named_controller(label)
     return " ".join([used.name, *(f"{k}={v:g}" for k, v in used.settings_in(study.name).items())])
 
 
-def _facts(grid: Sequence[Trial], rows: Sequence[Row], wall_s: float) -> list[tuple[str, str]]:
+def _facts(
+    grid: Sequence[Trial], results: Sequence[Result], wall_s: float
+) -> list[tuple[str, str]]:
     versions = what_was_run(grid[0].experiment)["versions"]
-    simulated = sum(row["duration"] for row in rows)
+    simulated = sum(result["duration"] for result in results)
     return [
-        ("trials", f"{len(rows)}, {simulated:.0f} s simulated in {wall_s / 60:.1f} min"),
+        ("trials", f"{len(results)}, {simulated:.0f} s simulated in {wall_s / 60:.1f} min"),
         ("machine", processor()),
         ("commit", commit()),
         ("versions", ", ".join(f"{name} {version}" for name, version in versions.items())),
@@ -128,7 +135,7 @@ def claims_markdown(parts: Sequence[Part], facts: Sequence[tuple[str, str]]) -> 
     return f"{head}\n" + markdown(
         {
             "paper says": claim.text,
-            "where": claim.place,
+            "where": claim.section,
             "measured (median and 95 % interval)": found.measured,
             "verdict": f"**{found.verdict}**",
         }
@@ -137,10 +144,9 @@ def claims_markdown(parts: Sequence[Part], facts: Sequence[tuple[str, str]]) -> 
     )
 
 
-def write_table(rows: Sequence[Row], path: Path) -> None:
-    """Write rows as one tidy CSV with a column for every entry that any of them has."""
-    columns = dict.fromkeys(name for row in rows for name in row)
+def write_table(results: Sequence[Result], path: Path) -> None:
+    """Write results as one tidy CSV with a column for every entry that any of them has."""
     with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, list(columns), restval="", lineterminator="\n")
+        writer = csv.DictWriter(file, columns_of(results), restval="", lineterminator="\n")
         writer.writeheader()
-        writer.writerows(rows)
+        writer.writerows(results)

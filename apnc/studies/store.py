@@ -1,4 +1,4 @@
-"""Rows in a file, appended as they come: no error, interrupt or kill loses a finished trial."""
+"""A file of results. Each is appended when its trial ends, so a kill loses no finished trial."""
 
 from __future__ import annotations
 
@@ -11,27 +11,22 @@ from pathlib import Path
 from typing import Final
 
 from apnc.report.locks import locked
-from apnc.studies.rows import Row
+from apnc.studies.results import Result, TrialId, id_of
 
 SYNC_S: Final = 1.0
-"""How often at most the file is put on the disk itself [s]: each time takes some ms."""
-
-
-def place_of(row: Row) -> tuple[str, str, str]:
-    """Where a row stands, see ``Trial.place``."""
-    return row["study"], row["method"], row["key"]
+"""Shortest time between two calls of fsync [s]. A call takes some milliseconds."""
 
 
 class Store(contextlib.ExitStack):
-    """Finished trials, one JSON object per line; the last line of a trial counts.
+    """Results of finished trials, one JSON object per line. The last line of a trial counts.
 
     Args:
-        path: the file, made with its folder if it is not there; None keeps the rows in memory.
+        path: the file. It and its folder are made if missing. None keeps results in memory only.
 
     Attributes:
-        rows: by study, method and key; without a line that a kill has torn, which is dropped.
-        wall_s: wall time that went by before each row [s], over all runs of the study; it is in
-            the file, but not in the row: two runs give the same rows.
+        results: by trial. A last line that a kill has cut short is removed.
+        wall_s: wall time that each trial took [s], over all runs of the study. It is stored in the
+            file beside the result and is not part of it, so that two runs give equal results.
 
     Raises:
         ValueError: another study writes to the file.
@@ -39,8 +34,8 @@ class Store(contextlib.ExitStack):
 
     def __init__(self, path: Path | None) -> None:
         super().__init__()
-        self.rows: dict[tuple[str, str, str], Row] = {}
-        self.wall_s: defaultdict[tuple[str, str, str], float] = defaultdict(float)
+        self.results: dict[TrialId, Result] = {}
+        self.wall_s: defaultdict[TrialId, float] = defaultdict(float)
         self._since = self._synced = time.perf_counter()
         self._file = None
         if path is None:
@@ -56,23 +51,25 @@ class Store(contextlib.ExitStack):
         self.callback(self._sync)
         for line in lines:
             with contextlib.suppress(ValueError, KeyError, TypeError):  # a damaged line
-                row = json.loads(line)
-                self.rows[at := place_of(row)] = row
-                self.wall_s[at] += row.pop("wall_s", 0.0)
+                result = json.loads(line)
+                self.results[at := id_of(result)] = result
+                self.wall_s[at] += result.pop("wall_s", 0.0)
 
-    def add(self, row: Row) -> None:
-        """Append a row; the operating system has it when this returns, the disk soon after.
+    def add(self, result: Result) -> None:
+        """Append a result.
+
+        The operating system has it when this returns. The disk has it within ``SYNC_S``.
 
         Raises:
-            OSError: it cannot be written; the file is named.
+            OSError: the file cannot be written; the message names it.
         """
         before, self._since = self._since, time.perf_counter()
-        self.rows[at := place_of(row)] = row
+        self.results[at := id_of(result)] = result
         self.wall_s[at] += (wall_s := self._since - before)
         if self._file is None:
             return
         try:
-            text = json.dumps(row | {"wall_s": round(wall_s, 3)}, allow_nan=False)
+            text = json.dumps(result | {"wall_s": round(wall_s, 3)}, allow_nan=False)
             self._file.write(text.encode() + b"\n")
             self._file.flush()
             if self._since - self._synced >= SYNC_S:

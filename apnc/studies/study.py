@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Final
 
+from apnc.controllers import ALL, named_controller
 from apnc.loop.code import hash_of_package
 from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import Experiment
@@ -17,9 +18,8 @@ from apnc.loop.record import Record
 from apnc.loop.steps import steps_text
 from apnc.report.figure import Figure
 from apnc.studies.claims import Claim
-from apnc.studies.contenders import ALL, contender
-from apnc.studies.registry import METHODS, ROBOT, Entry
-from apnc.studies.rows import Row
+from apnc.studies.registry import CONTROLLERS_OPTION, ROBOT, Entry
+from apnc.studies.results import Result, TrialId
 from apnc_core.in_python import in_python
 from apnc_plant.robot import RobotDescription
 
@@ -34,7 +34,7 @@ Seeds = Callable[[Mapping[str, Value], int], int]
 WALK_MI: Final = 0.08
 """MI of the walks of sections 3.1.2 to 3.1.4."""
 
-COURSE_MI: Final = 0.15
+SCHEDULE_MI: Final = 0.15
 """MI of the walks with a damaged leg, through the states S1 to S3, and along the courses."""
 
 WALK_S: Final = 45.0
@@ -45,7 +45,7 @@ def fewer_of_others(**at: Sequence[Value]) -> Seeds:
     """All seeds of APNC; half of them of the others, and those only at some values of an axis."""
 
     def seeds(cell: Mapping[str, Value], trials: int) -> int:
-        if cell["method"] == "apnc":
+        if cell["controller"] == "apnc":
             return trials
         there = all(cell[axis] in values for axis, values in at.items())
         return math.ceil(trials / 2) if there else 0
@@ -67,15 +67,15 @@ class Trial:
         return self.entry.name
 
     @cached_property
-    def place(self) -> tuple[str, str, str]:
-        """Study, label and key: two studies, and two labels, may mean the same experiment.
+    def id(self) -> TrialId:
+        """Study, label of the controller, and key.
 
-        The key is that of the experiment; of a study outside the product, whose code the
-        experiment does not know, the hash of that code follows.
+        The key is that of the experiment. For a study outside the product the hash of its package
+        is appended, since the key of an experiment covers the product's code only.
         """
         own = hash_of_package(self.entry.package)
         key = self.experiment.key()
-        return self.study, self.cell["method"], f"{key}-{own}" if own else key
+        return TrialId(self.study, self.cell["controller"], f"{key}-{own}" if own else key)
 
 
 @dataclass(frozen=True)
@@ -84,30 +84,31 @@ class Study:
 
     Args:
         entry: of the registry.
-        experiment: makes one of the FMU's method, the seed, a value per axis and the robot if one
-            is asked for, given by name; what it sets goes before the settings of the contender.
+        experiment: makes one of the label of a controller, the seed, a value per axis and the robot
+            if one is asked for, given by name; what it sets goes before what the controller has for
+            this study.
         axes: values along each axis of the grid, by name.
-        methods: labels of the contenders that are run.
+        controllers: labels of the controllers that are run.
         seeds: how many of the seeds asked for a cell (its label and values) gets, 0 for none; a
             grid along chosen values has all.
         measure: figures of a record that its summary does not have, ``None`` where undefined.
         claims: what the paper says of it.
-        figures: made of the rows, of which there is at least one.
-        scenes: figures of single runs of a robot, run for them when the rows are there.
-        table: the rows as a Markdown table.
+        figures: made of the results, of which there is at least one.
+        scenes: figures of single runs of a robot, run for them when the results are there.
+        table: the results as a Markdown table.
         engine: what the robots walk in; None: its experiments say.
     """
 
     entry: Entry
     experiment: Callable[..., Experiment]
     axes: Chosen = field(default_factory=dict)
-    methods: tuple[str, ...] = ALL
+    controllers: tuple[str, ...] = ALL
     seeds: Seeds = lambda cell, trials: trials
-    measure: Callable[[Record], Row] = lambda record: {}
+    measure: Callable[[Record], Result] = lambda record: {}
     claims: tuple[Claim, ...] = ()
-    figures: Callable[[Sequence[Row]], list[Figure]] = lambda rows: []
+    figures: Callable[[Sequence[Result]], list[Figure]] = lambda results: []
     scenes: Callable[[Robot], list[Figure]] = lambda robot: []
-    table: Callable[[Sequence[Row]], str] | None = None
+    table: Callable[[Sequence[Result]], str] | None = None
     engine: str | None = COMPILED
 
     @property
@@ -118,36 +119,38 @@ class Study:
     def grid(
         self,
         trials: int,
-        methods: Sequence[str] | None = None,
+        controllers: Sequence[str] | None = None,
         chosen: Chosen | None = None,
         duration: float | None = None,
         robot: str | None = None,
     ) -> list[Trial]:
-        """Every value of every axis, its seeds, every method; see ``run_study``."""
+        """Every value of every axis, its seeds, every controller; see ``run_study``."""
         trials, duration, robot = in_python(trials), in_python(duration), in_python(robot)
-        methods = in_python(methods)
+        controllers = in_python(controllers)
         chosen = {axis: in_python(values) for axis, values in (chosen or {}).items()}
         if not isinstance(trials, int):
             raise ValueError(f"trials = {trials!r} is not a whole number")
         if trials < 1:
             raise ValueError(f"trials = {trials} is not at least 1")
-        if methods is not None and METHODS not in self.entry.options:
-            raise ValueError(f"study '{self.name}' takes no methods; it has its own")
+        if controllers is not None and CONTROLLERS_OPTION not in self.entry.options:
+            raise ValueError(f"study '{self.name}' takes no controllers; it has its own")
         if robot is not None and ROBOT not in self.entry.options:
             raise ValueError(f"study '{self.name}' takes no robot; it has its own")
-        if not (used := tuple(dict.fromkeys(self.methods if methods is None else methods))):
-            raise ValueError("no method is given")
+        if not (
+            used := tuple(dict.fromkeys(self.controllers if controllers is None else controllers))
+        ):
+            raise ValueError("no controller is given")
         if unknown := set(chosen) - set(self.axes):
             allowed = ", ".join(self.axes) or "none"
             raise ValueError(f"{unknown.pop()} is no axis of '{self.name}'; allowed: {allowed}")
         values = (self._values(axis, chosen.get(axis)) for axis in self.axes)
         cells = [dict(zip(self.axes, at, strict=True)) for at in itertools.product(*values)]
         return [
-            self._trial({"method": method, **cell, "seed": seed}, duration, robot)
+            self._trial({"controller": controller, **cell, "seed": seed}, duration, robot)
             for cell in cells
             for seed in range(trials)
-            for method in used
-            if chosen or seed < self.seeds({"method": method, **cell}, trials)
+            for controller in used
+            if chosen or seed < self.seeds({"controller": controller, **cell}, trials)
         ]
 
     def _values(self, axis: str, chosen: Sequence[Value] | None) -> list[Value]:
@@ -168,15 +171,15 @@ class Study:
         return list(dict.fromkeys(values))
 
     def _trial(self, cell: dict[str, Value], duration: float | None, robot: str | None) -> Trial:
-        used = contender(str(cell["method"]))
+        used = named_controller(str(cell["controller"]))
         own = {} if robot is None else {"robot": robot}
-        experiment = self.experiment(**cell | {"method": used.method} | own)
-        settings = {**used.settings_in(self.name), **experiment.settings}
+        experiment = self.experiment(**cell | own)
+        settings = {**used.in_study.get(self.name, {}), **experiment.settings}
         length = experiment.duration if duration is None else duration
         engine = self.engine or experiment.engine
         experiment = replace(experiment, settings=settings, duration=length, engine=engine)
         mi = experiment.mi if isinstance(experiment.mi, int | float) else steps_text(experiment.mi)
-        first = {"method": cell["method"], "mi": mi, "seed": cell["seed"]}
+        first = {"controller": cell["controller"], "mi": mi, "seed": cell["seed"]}
         whole = {**first, "duration": experiment.duration, **cell, **own}
         return Trial(self.entry, whole, experiment)
 

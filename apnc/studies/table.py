@@ -1,4 +1,4 @@
-"""Markdown tables of rows."""
+"""Markdown tables of results."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from typing import Any, Final, Protocol
 
 from apnc.loop.batch import Lanes, lanes_of
 from apnc.loop.engines import COMPILED
-from apnc.studies.rows import Row
+from apnc.studies.results import Result
 from apnc.studies.study import Trial
 
 CHUNK: Final = 32
@@ -26,10 +26,10 @@ Stop = Callable[[], bool]
 
 
 class Walk(Protocol):
-    """Walks trials in this process; rows as they finish, in any order."""
+    """Walks trials in this process; results as they finish, in any order."""
 
-    def __call__(self, trials: Sequence[Trial], *, workers: int, stop: Stop) -> Iterator[Row]:
-        """Rows of the trials; robots in C walk on so many threads."""
+    def __call__(self, trials: Sequence[Trial], *, workers: int, stop: Stop) -> Iterator[Result]:
+        """Results of the trials; robots in C walk on so many threads."""
 
 
 @contextmanager
@@ -95,7 +95,7 @@ def _leave_interrupts_to_parent() -> None:
         signal.signal(number, signal.SIG_IGN)
 
 
-def rows_of(
+def results_of(
     trials: Sequence[Trial],
     walk: Walk,
     executor: Executor | None,
@@ -103,8 +103,8 @@ def rows_of(
     workers: int,
     cluster: bool,
     stop: Stop,
-) -> Iterator[Row]:
-    """Rows as they finish, in any order; once ``stop()`` is true, nothing further begins.
+) -> Iterator[Result]:
+    """Results as they finish, in any order; once ``stop()`` is true, nothing further begins.
 
     Args:
         trials: what is run.
@@ -138,7 +138,7 @@ def chunks_of(trials: Sequence[Trial]) -> list[list[Trial]]:
     return [*parts, *others]
 
 
-def _all_of(walk: Walk, trials: Sequence[Trial]) -> list[Row]:
+def _all_of(walk: Walk, trials: Sequence[Trial]) -> list[Result]:
     return list(walk(trials, workers=1, stop=_never))
 
 
@@ -148,13 +148,13 @@ def _never() -> bool:
 
 def _sent(
     chunks: Sequence[Sequence[Trial]],
-    work: Callable[[Sequence[Trial]], list[Row]],
+    work: Callable[[Sequence[Trial]], list[Result]],
     executor: Executor,
     at_once: int,
     stop: Stop,
-) -> Iterator[Row]:
+) -> Iterator[Result]:
     left = takewhile(lambda _: not stop(), chunks)
-    running: set[Future[list[Row]]] = set()
+    running: set[Future[list[Result]]] = set()
     while True:
         running |= {executor.submit(work, chunk) for chunk in islice(left, at_once - len(running))}
         if not running:

@@ -14,7 +14,7 @@ from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import line
 from apnc.studies.plots import COLOURS
-from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
+from apnc.studies.results import STRICT, Result, cells_in, is_number, matching
 from apnc.studies.study import WALK_MI, Robot, Study
 from apnc.studies.table import markdown
 from research.contact.measure import (
@@ -36,18 +36,20 @@ MAX_CHATTER: Final = 0.01
 """Largest chatter of a step that is fine enough."""
 
 
-def experiment(method: str, seed: int, depth: float, steps: int) -> Experiment:
+def experiment(controller: str, seed: int, depth: float, steps: int) -> Experiment:
     """A walk with a damping depth [m] of the feet and so many integration steps per tick."""
     own, step = robot(depth), TICK / steps
-    return Experiment(robot=own, method=method, seed=seed, mi=WALK_MI, duration=30.0, step=step)
+    return Experiment(
+        robot=own, controller=controller, seed=seed, mi=WALK_MI, duration=30.0, step=step
+    )
 
 
-def table(rows: Sequence[Row]) -> str:
+def table(results: Sequence[Result]) -> str:
     """A line per law of damping and step, and whether the step is fine enough."""
-    return markdown(_line(row) for row in rows if is_number(row.get("force_error")))
+    return markdown(_line(result) for result in results if is_number(result.get("force_error")))
 
 
-def _line(row: Row) -> dict[str, str]:
+def _line(result: Result) -> dict[str, str]:
     shown: dict[str, str] = {}
     for title, column, scale, form in (
         ("damping depth [mm]", "depth", 1e3, "g"),
@@ -62,27 +64,27 @@ def _line(row: Row) -> dict[str, str]:
         ("duty", "duty_factor_mean", 1.0, ".3f"),
         ("COT", "cost_of_transport", 1.0, ".3f"),
     ):
-        value = row.get(column)
+        value = result.get(column)
         shown[title] = f"{scale * float(value):{form}}" if value is not None else "-"
-    return shown | {TARGET: "yes" if fine_enough(row) else "no"}
+    return shown | {TARGET: "yes" if fine_enough(result) else "no"}
 
 
 TARGET: Final = f"error <= {100 * MAX_FORCE_ERROR:g} %, chatter <= {100 * MAX_CHATTER:g} %"
 
 
-def fine_enough(row: Row) -> bool:
+def fine_enough(result: Result) -> bool:
     """Whether force error and chatter of a step are within what is asked."""
-    return bool(row["force_error"] <= MAX_FORCE_ERROR and row["chatter"] <= MAX_CHATTER)
+    return bool(result["force_error"] <= MAX_FORCE_ERROR and result["chatter"] <= MAX_CHATTER)
 
 
-def figures(rows: Sequence[Row]) -> list[Figure]:
+def figures(results: Sequence[Result]) -> list[Figure]:
     """Force error and chatter over the step, for each law of damping."""
     data: list[Trace] = []
-    for depth in cells_in(rows, "depth"):
+    for depth in cells_in(results, "depth"):
         for column, words in (("force_error", "force error"), ("chatter", "chatter")):
-            shown = [row for row in matching(rows, depth=depth) if row.get(column)]
-            y = np.array([row[column] for row in shown])
-            x = {"x": [row["step_ms"] for row in shown], "mode": "lines+markers"}
+            shown = [result for result in matching(results, depth=depth) if result.get(column)]
+            y = np.array([result[column] for result in shown])
+            x = {"x": [result["step_ms"] for result in shown], "mode": "lines+markers"}
             label = f"{words}, damping depth {1e3 * depth:g} mm"
             data.append(line(y, label, COLOURS[len(data) % len(COLOURS)]) | x)
     axes = {"xaxis": theme.axis("step [ms]", type="log"), "hovermode": "closest"}
@@ -112,7 +114,7 @@ STUDY: Final = Study(
     STUDIES["contact"],
     experiment,
     {"depth": (GRADUAL, SUDDEN), "steps": STEPS},
-    methods=("apnc",),
+    controllers=("apnc",),
     measure=measure,
     figures=figures,
     scenes=scenes,

@@ -10,8 +10,8 @@ import numpy as np
 
 from apnc.loop.engines import OWN_ENGINE, plant_in
 from apnc.loop.record import Record
+from apnc.studies.results import Result
 from apnc.studies.robots import changed, constant
-from apnc.studies.rows import Row
 from apnc_core.types import Array
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
@@ -63,7 +63,7 @@ def trot(depth: float, steps: int, engine: str = OWN_ENGINE) -> Trot:
     return Trot(np.array(forces), plant.sample()["position"])
 
 
-def measure(record: Record) -> Row:
+def measure(record: Record) -> Result:
     """Errors of the open-loop trot with the step of a walk, and how fast the walk was computed."""
     depth = record.robot.contact.damping_depth
     steps = round(TICK / record.experiment.step)
@@ -74,7 +74,7 @@ def measure(record: Record) -> Row:
     }
 
 
-def errors(own: Trot, finest: Trot) -> Row:
+def errors(own: Trot, finest: Trot) -> Result:
     """How a trot differs from one with the finest step.
 
     Returns:

@@ -10,9 +10,9 @@ from apnc.loop.engines import COMPILED, EXTRAS, OWN_ENGINE
 from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
 from apnc.report.figure import Figure
-from apnc.studies.rows import (
+from apnc.studies.results import (
     STRICT,
-    Row,
+    Result,
     cells_in,
     gait_in,
     matching,
@@ -45,26 +45,26 @@ def experiment(engine: str, **fields: Any) -> Experiment:
     return Experiment(duration=WALK_S, engine=engine, **fields)
 
 
-def table(rows: Sequence[Row]) -> str:
+def table(results: Sequence[Result]) -> str:
     """A line per engine and MI."""
-    cells = [(mi, engine) for mi in cells_in(rows, "mi") for engine in ENGINES]
-    groups = [(*cell, matching(rows, mi=cell[0], engine=cell[1])) for cell in cells]
-    gait = gait_in(rows)
+    cells = [(mi, engine) for mi in cells_in(results, "mi") for engine in ENGINES]
+    groups = [(*cell, matching(results, mi=cell[0], engine=cell[1])) for cell in cells]
+    gait = gait_in(results)
     return markdown(_line(gait, *group) for group in groups if group[2])
 
 
-def _line(gait: str, mi: float, engine: str, rows: list[Row]) -> dict[str, str]:
-    phases = [middle(values(rows, name), 2) for name in phases_in(rows)]
+def _line(gait: str, mi: float, engine: str, results: list[Result]) -> dict[str, str]:
+    phases = [middle(values(results, name), 2) for name in phases_in(results)]
     return {
         "MI": f"{mi:.2f}",
         "engine": figures.STYLES[engine][0],
-        f"{gait} kept, strict (95 % interval)": str(rate(successes(rows))),
-        "strict time [s]": middle(values(rows, STRICT), 1),
-        "speed [m/s]": middle(values(rows, "late_speed_m_per_s"), 3),
-        "stride [Hz]": middle(values(rows, "stride_frequency_hz"), 2),
-        "duty factor": middle(values(rows, "duty_factor_mean"), 2),
+        f"{gait} kept, strict (95 % interval)": str(rate(successes(results))),
+        "strict time [s]": middle(values(results, STRICT), 1),
+        "speed [m/s]": middle(values(results, "late_speed_m_per_s"), 3),
+        "stride [Hz]": middle(values(results, "stride_frequency_hz"), 2),
+        "duty factor": middle(values(results, "duty_factor_mean"), 2),
         "phases at the end [rad]": "; ".join(phases),
-        "fell": str(len(matching(rows, fell=True))),
+        "fell": str(len(matching(results, fell=True))),
     }
 
 
@@ -80,7 +80,7 @@ STUDY: Final = Study(
     STUDIES["engines"],
     experiment,
     {"engine": ENGINES, "mi": MI_VALUES},
-    methods=("apnc",),
+    controllers=("apnc",),
     seeds=lambda cell, trials: trials if cell["engine"] in installed() else 0,
     figures=figures.over_mi,
     scenes=scenes,

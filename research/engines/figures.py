@@ -14,7 +14,7 @@ from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import line
 from apnc.studies.plots import spread
-from apnc.studies.rows import STRICT, Row, cells_in, is_number, matching
+from apnc.studies.results import STRICT, Result, cells_in, is_number, matching
 from research.contact.measure import TICK
 from research.engines.replay import distances
 
@@ -43,21 +43,21 @@ LEAST: Final = 1e-17
 HALF_TURNS: Final = {"tickvals": [0.0, np.pi], "ticktext": ["0", "π"]}
 
 
-def over_mi(rows: Sequence[Row]) -> list[Figure]:
+def over_mi(results: Sequence[Result]) -> list[Figure]:
     """A figure per column."""
-    return [_figure(rows, column, title) for column, title in COLUMNS.items()]
+    return [_figure(results, column, title) for column, title in COLUMNS.items()]
 
 
-def _figure(rows: Sequence[Row], column: str, title: str) -> Figure:
+def _figure(results: Sequence[Result], column: str, title: str) -> Figure:
     data: list[Trace] = []
-    for engine in (name for name in STYLES if matching(rows, engine=name)):
+    for engine in (name for name in STYLES if matching(results, engine=name)):
         points = [
-            (f"{row['mi']:g}", float(row[column]))
-            for row in matching(rows, engine=engine)
-            if is_number(row.get(column))
+            (f"{result['mi']:g}", float(result[column]))
+            for result in matching(results, engine=engine)
+            if is_number(result.get(column))
         ]
         data += spread(points, *STYLES[engine])
-    cells = [f"{mi:g}" for mi in cells_in(rows, "mi")]
+    cells = [f"{mi:g}" for mi in cells_in(results, "mi")]
     x = theme.axis("MI [1]", type="category", categoryorder="array", categoryarray=cells)
     layout = theme.layout(
         320, xaxis=x, yaxis=theme.axis(title), boxmode="group", scattermode="group",

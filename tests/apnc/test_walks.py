@@ -15,7 +15,7 @@ from apnc.loop.simulate import simulate
 from apnc.studies import gait, steering
 from apnc.studies.states.measure import judge, measure
 from apnc.studies.states.timeline import TIMELINE
-from apnc.studies.steering import course
+from apnc.studies.steering import schedules
 from apnc.studies.study import WALK_MI
 from apnc.summary import Summary, summarise
 from research.contact.measure import GRADUAL, SUDDEN, errors, trot
@@ -52,12 +52,12 @@ def test_the_hexapod_forms_a_tripod_and_keeps_it(seed: int) -> None:
     assert metrics.phase_error(c["o1"], c["o2"], tripod)[-300:].max() < metrics.STRICT_TOLERANCE
 
 
-@pytest.mark.parametrize(("method", "keeps"), [("apnc", True), ("apc", False)])
+@pytest.mark.parametrize(("controller", "keeps"), [("apnc", True), ("apc", False)])
 def test_the_hexapod_keeps_and_recalls_its_tripod_with_couplings_only(
-    method: str, keeps: bool
+    controller: str, keeps: bool
 ) -> None:
     when = replace(TIMELINE, lowered=0.0)  # started on the ground
-    found = judge(simulate(when.experiment(method, 1, robot="hexapod")), when)
+    found = judge(simulate(when.experiment(controller, 1, robot="hexapod")), when)
     assert found["kept"] is found["recovered"] is keeps
     assert found["front_stopped"] is found["in_phase"] is not keeps
 
@@ -95,9 +95,9 @@ def test_half_steering_turns_alike_to_both_sides() -> None:
 
 
 def test_speed_follows_mi_and_comes_back() -> None:
-    record, _ = walked(duration=60.0, mi=course.SPEEDS)
+    record, _ = walked(duration=60.0, mi=schedules.SPEEDS)
     found = steering.measure(record)
-    slow, fast, again = (found[f"{course.SPEED}_{i}"] for i in (1, 2, 3))
+    slow, fast, again = (found[f"{schedules.SPEED}_{i}"] for i in (1, 2, 3))
     assert fast > 1.5 * slow
     assert again == pytest.approx(slow, rel=0.05)
 
@@ -120,17 +120,17 @@ def test_walks_with_leg_rf_held_still(mi: float) -> None:
 
 def test_without_load_feedback_no_trot_forms() -> None:
     """The criterion tells a trot from four legs in phase: the learners off, nothing forms."""
-    _, summary = walked(method="apc", duration=12.0, settings={"B_f": 0.0, "B_s": 0.0})
+    _, summary = walked(controller="apc", duration=12.0, settings={"B_f": 0.0, "B_s": 0.0})
     assert summary.converged is False
     assert summary.convergence_time_authors_s is None
 
 
-@pytest.mark.parametrize("method", ["apnc", "apc"])
-def test_the_states_go_as_in_the_paper(method: str) -> None:
-    record = simulate(TIMELINE.experiment(method, 1))
+@pytest.mark.parametrize("controller", ["apnc", "apc"])
+def test_the_states_go_as_in_the_paper(controller: str) -> None:
+    record = simulate(TIMELINE.experiment(controller, 1))
     row = measure(record)
     assert row["state_S2"] and row["state_S3"] and row["state_fell"] is False
-    if method == "apnc":
+    if controller == "apnc":
         assert row["state_S1"]
     else:  # without the couplings a formed gait may sway beyond 0.6 rad for a moment
         assert row["state_speed_s2"] < 0.5 * row["state_speed_s1"]

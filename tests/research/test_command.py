@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from apnc.studies.engine import grid_of, run_study
 from apnc.studies.registry import STUDIES as OF_THE_PRODUCT
+from apnc.studies.runner import grid_of, run_study
 from apnc.studies.study import load
 from research.registry import STUDIES
 
@@ -44,9 +44,9 @@ def test_a_study_writes_what_those_of_the_product_write_and_goes_on(tmp_path: Pa
     assert done.returncode == 0, done.stderr
     assert "2 trials" in done.stdout
     with (tmp_path / "trials.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    assert {row["study"] for row in rows} == {"symmetry"}
-    assert {row["key"].partition("-")[2] for row in rows} != {""}  # the code of research
+        results = list(csv.DictReader(file))
+    assert {result["study"] for result in results} == {"symmetry"}
+    assert {result["key"].partition("-")[2] for result in results} != {""}  # the code of research
     assert "Equal loads" in (tmp_path / "report.html").read_text()
     assert "legs stay in phase" in (tmp_path / "claims.md").read_text()
     kept = (tmp_path / "trials.jsonl").read_text()

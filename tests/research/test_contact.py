@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_up_rows import Row, made_up
+from made_up_results import Result, made_up
 from records import synthetic_record
 
-from apnc.studies.engine import grid_of
+from apnc.studies.runner import grid_of
 from apnc_core.types import Array
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import load_robot
@@ -111,12 +111,12 @@ def test_contact_is_measured_with_the_step_of_the_walk(monkeypatch: pytest.Monke
     experiment = contact.experiment("apnc", 0, 1e-6, 16)
     record = replace(synthetic_record(30.0), experiment=experiment, wall_s=3.0)
     record = replace(record, robot=experiment.description)
-    row = contact_measure.measure(record)
+    result = contact_measure.measure(record)
     assert asked == [(1e-6, 16), (1e-6, 256)]
-    assert row["step_ms"] == pytest.approx(1e3 / 60 / 16)
-    assert row["real_time_factor"] == pytest.approx(10.0)
-    assert row["force_error"] == pytest.approx(0.2)
-    assert set(row) >= {"peak_N", "tick_force_error", "chatter", "distance_error_mm"}
+    assert result["step_ms"] == pytest.approx(1e3 / 60 / 16)
+    assert result["real_time_factor"] == pytest.approx(10.0)
+    assert result["force_error"] == pytest.approx(0.2)
+    assert set(result) >= {"peak_N", "tick_force_error", "chatter", "distance_error_mm"}
 
 
 @pytest.mark.thorough
@@ -129,9 +129,14 @@ def test_the_default_step_is_fine_enough_for_forces() -> None:
 
 
 def test_the_table_says_which_step_is_fine_enough() -> None:
-    row = {"depth": 2e-4, "step_ms": 1.042, "force_error": 0.05, "chatter": 0.01}
-    rows = [row, row | {"force_error": 0.051}, row | {"chatter": 0.011}, {"depth": 2e-4}]
-    lines = contact.table(rows).splitlines()[2:]
+    result = {"depth": 2e-4, "step_ms": 1.042, "force_error": 0.05, "chatter": 0.01}
+    results = [
+        result,
+        result | {"force_error": 0.051},
+        result | {"chatter": 0.011},
+        {"depth": 2e-4},
+    ]
+    lines = contact.table(results).splitlines()[2:]
     assert [line.split(" | ")[-1] for line in lines] == ["yes |", "no |", "no |"]
     assert lines[0].startswith("| 0.2 | 1.042 | - | - | 5.0 | 1.00 |")
 
@@ -146,15 +151,15 @@ def test_touch_down_is_the_first_rise_from_zero() -> None:
 
 
 def test_contact_shows_error_and_chatter_over_the_step() -> None:
-    def figures(cell: Row) -> Row:
+    def figures(cell: Result) -> Result:
         step = 1e3 / 60 / cell["steps"]
         error = 0.0 if cell["steps"] == 256 else 0.1 * step
         return {"step_ms": step, "force_error": error, "chatter": 0.01}
 
     axes = {"depth": (2e-4, 1e-6), "steps": (8, 256)}
-    rows = made_up(axes, figures, methods=("apnc",), seeds=1, study="contact")
-    del rows[0]["force_error"], rows[0]["chatter"]  # ended with an error
-    (figure,) = contact.STUDY.figures(rows)
+    results = made_up(axes, figures, controllers=("apnc",), seeds=1, study="contact")
+    del results[0]["force_error"], results[0]["chatter"]  # ended with an error
+    (figure,) = contact.STUDY.figures(results)
     shown = {trace["name"]: trace["x"] for trace in figure.data}
     assert shown["force error, damping depth 0.2 mm"] == []
     assert shown["force error, damping depth 0.001 mm"] == [pytest.approx(1e3 / 60 / 8)]

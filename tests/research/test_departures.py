@@ -1,14 +1,14 @@
-"""Departures taken back one by one: the grid, and the table of made-up rows."""
+"""Departures taken back one by one: the grid, and the table of made-up results."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 import pytest
-from made_up_rows import Row, made_up
+from made_up_results import Result, made_up
 from records import synthetic_record
 
-from apnc.studies.engine import grid_of
+from apnc.studies.runner import grid_of
 from apnc.studies.states.timeline import TIMELINE
 from research import departures
 from research.departures import NONE, PRINTED, REMOVED, STATES
@@ -53,7 +53,7 @@ def test_a_stop_is_one_if_no_oscillator_moves_before_the_restart(moves: bool) ->
 
 
 def test_the_table_counts_trots_and_states() -> None:
-    def figures(cell: Row) -> Row:
+    def figures(cell: Result) -> Result:
         lost = cell["removed"] != NONE and cell["seed"] == 0
         if cell["task"] == STATES:
             states = {"state_S1": True, "state_S2": not lost, "state_S3": False}
@@ -62,8 +62,8 @@ def test_the_table_counts_trots_and_states() -> None:
 
     first = list(REMOVED)[:2]
     axes = {"removed": first, "task": (*departures.WALKS, STATES)}
-    rows = made_up(axes, figures, methods=("apnc",), study="departures")
-    lines = departures.table(rows).splitlines()[2:]
+    results = made_up(axes, figures, controllers=("apnc",), study="departures")
+    lines = departures.table(results).splitlines()[2:]
     assert lines[0].startswith(
         f"| {NONE} | 6/6 | 6/6 | 6/6 | 6/6 | 6/6 | 0.100 (0.100 ... 0.100) |"
     )

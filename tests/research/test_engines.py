@@ -6,7 +6,7 @@ from collections import Counter
 
 import pytest
 
-from apnc.studies.engine import grid_of
+from apnc.studies.runner import grid_of
 from research import engines
 from research.engines.replay import distances, path_of
 from research.engines.speed import Cost, at_equal_error
@@ -48,17 +48,17 @@ def test_the_study_runs_every_engine_and_shows_them_side_by_side() -> None:
     trials = grid_of("engines", 2, chosen={"mi": ["0.15"]}, studies=STUDIES)
     found = {(t.cell["engine"], t.experiment.engine) for t in trials}
     assert found == {(engine, engine) for engine in ("exudyn", "mujoco", "compiled")}
-    rows = [
+    results = [
         {"study": "engines", **trial.cell, "convergence_time_s": 1.0 + k, "fell": False}
         for k, trial in enumerate(trials)
     ]
-    table = engines.STUDY.table(rows).splitlines()  # type: ignore[misc]
+    table = engines.STUDY.table(results).splitlines()  # type: ignore[misc]
     assert [line.split(" | ")[1:4] for line in table[2:]] == [
         ["Exudyn", "2/2 (16 ... 100 %)", "1.5 (1.0 ... 2.0)"],
         ["MuJoCo", "2/2 (16 ... 100 %)", "3.5 (3.0 ... 4.0)"],
         ["plain C", "2/2 (16 ... 100 %)", "5.5 (5.0 ... 6.0)"],
     ]
-    first = engines.STUDY.figures(rows)[0]
+    first = engines.STUDY.figures(results)[0]
     assert [trace["y"] for trace in first.data] == [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]
 
 

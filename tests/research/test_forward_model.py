@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from made_up_rows import Row, made_up
+from made_up_results import Result, made_up
 from records import synthetic_record
 
 from apnc.loop.record import End, Record
 from apnc.studies.claims import NO, PARTLY, YES
-from apnc.studies.engine import grid_of
-from apnc.studies.rows import AUTHORS, STRICT
+from apnc.studies.results import AUTHORS, STRICT
+from apnc.studies.runner import grid_of
 from apnc_core.enumerations import ForwardModel
 from research import forward_model
 from research.registry import STUDIES
@@ -22,7 +22,7 @@ from research.registry import STUDIES
 
 def test_forward_models_differ_in_nothing_else() -> None:
     trials = grid_of("forward_model", 2, studies=STUDIES)
-    assert Counter((t.cell["method"], t.cell["model"], t.cell["mi"]) for t in trials) == {
+    assert Counter((t.cell["controller"], t.cell["model"], t.cell["mi"]) for t in trials) == {
         ("apnc", model.name, mi): 2 for model in ForwardModel for mi in (0.08, 0.15, 0.24)
     }
     for trial in trials:
@@ -57,7 +57,7 @@ def test_no_gain_of_a_run_that_fell() -> None:
     assert forward_model.measure(fell) == {"gain_forming": None, "gain_late": None}
 
 
-def of_models(**figures: Any) -> list[Row]:
+def of_models(**figures: Any) -> list[Result]:
     """Walks with every forward model; a figure is a number, or a function of the cell."""
     axes = {"model": tuple(forward_model.MODELS), "mi": (0.08, 0.15)}
     return made_up(
@@ -73,34 +73,34 @@ def of_models(**figures: Any) -> list[Row]:
     ("failing", "expected"), [(0, YES), (1, PARTLY), (6, NO)], ids=["none", "one", "half"]
 )
 def test_a_forward_model_forms_the_gait(model: str, failing: int, expected: str) -> None:
-    def time(cell: Row) -> float | None:
+    def time(cell: Result) -> float | None:
         lost = cell["model"] == model and cell["mi"] == 0.15 and cell["seed"] < failing
         return None if lost else 2.0
 
-    rows = of_models(**{STRICT: time, AUTHORS: time})
-    assert forward_model.forms(model)(rows).verdict == expected
+    results = of_models(**{STRICT: time, AUTHORS: time})
+    assert forward_model.forms(model)(results).verdict == expected
     other = "radial_basis" if model == "low_pass_knee" else "low_pass_knee"
-    assert forward_model.forms(other)(rows).verdict == YES
+    assert forward_model.forms(other)(results).verdict == YES
 
 
 @pytest.mark.parametrize(
     ("late", "expected"), [(0.02, YES), (0.08, PARTLY), (0.12, NO), (None, NO)]
 )
 def test_the_gain_falls_of_itself(late: float | None, expected: str) -> None:
-    rows = of_models(
+    results = of_models(
         gain_forming=0.1, gain_late=lambda c: late if c["model"] == "radial_basis" else 0.02
     )
-    assert forward_model.gain_falls("radial_basis")(rows).verdict == expected
-    assert forward_model.gain_falls("low_pass_hip")(rows).verdict == YES
+    assert forward_model.gain_falls("radial_basis")(results).verdict == expected
+    assert forward_model.gain_falls("low_pass_hip")(results).verdict == YES
 
 
 def test_the_figures_of_the_forward_models_are_told() -> None:
-    rows = of_models(gain_forming=0.1, gain_late=0.025)
-    assert forward_model.gain_falls("radial_basis")(rows).measured == (
+    results = of_models(gain_forming=0.1, gain_late=0.025)
+    assert forward_model.gain_falls("radial_basis")(results).measured == (
         "0.100 (0.100 ... 0.100), late 0.025 (0.025 ... 0.025), ratio 0.25 (0.25 ... 0.25), n = 12"
     )
-    rows = of_models(**{STRICT: 2.0, AUTHORS: None})
-    assert forward_model.forms("radial_basis")(rows).measured == (
+    results = of_models(**{STRICT: 2.0, AUTHORS: None})
+    assert forward_model.forms("radial_basis")(results).measured == (
         "strict: 12/12 (74 ... 100 %), 2.0 (2.0 ... 2.0) s, with the hip's 2.0 (2.0 ... 2.0) s; "
         "authors': 0/12 (0 ... 26 %), -, with the hip's -"
     )

@@ -110,7 +110,7 @@ def test_the_reduced_plant_lifts_a_foot_whose_leg_is_drawn_in() -> None:
 
 def test_the_free_cycle_repeats_itself() -> None:
     cycle = free_cycle(Parameters(), 0.15)
-    assert 60.0 / cycle.ticks == pytest.approx(2.0, abs=0.05)  # docs/formation.md: 2.00 Hz
+    assert 60.0 / cycle.ticks == pytest.approx(2.0, abs=0.05)  # formation/departures.md: 2.00 Hz
     phase = np.linspace(0.0, 2 * np.pi, 7)
     a1, a2 = oscillator.activation(*cycle.at(phase), 0.15, Parameters())
     later = cycle.at(phase + 2 * np.pi / cycle.ticks)
@@ -119,7 +119,7 @@ def test_the_free_cycle_repeats_itself() -> None:
 
 def test_the_reduced_plant_forms_the_trot() -> None:
     robot = load_robot("lilibot")
-    run = Experiment(robot=robot, mi=0.15, duration=12.0, method="apc")
+    run = Experiment(robot=robot, mi=0.15, duration=12.0, controller="apc")
     c = simulate(run, plant=SpringTrunk(robot)).signals
     error = metrics.phase_error(c["o1"], c["o2"], metrics.GAITS[4]["trot"])
     assert error[0] > 2.5  # in phase, but for the first loads

@@ -9,10 +9,10 @@ from dataclasses import asdict
 from typing import Any
 
 import pytest
-from made_up_rows import Row, made_up
+from made_up_results import Result, made_up
 
-from apnc.studies.engine import grid_of
-from apnc.studies.rows import STRICT
+from apnc.studies.results import STRICT
+from apnc.studies.runner import grid_of
 from apnc_plant.robot import load_robot
 from research import sensitivity
 from research.registry import STUDIES
@@ -72,10 +72,10 @@ def test_changes_do_what_they_say(changes: Mapping[str, sensitivity.Change]) -> 
     assert after["friction 0.5"].contact.friction == 0.5
     assert after["P x 0.8"].servo.stiffness == pytest.approx(0.8 * LILIBOT.servo.stiffness)
     assert after["sensor shows the norm"].sensor.component == "norm"
-    x, y, z = LILIBOT.trunk.body.com
-    higher = after["trunk's centre of mass 10 mm higher"].trunk.body.com
+    x, y, z = LILIBOT.trunk.com
+    higher = after["trunk's centre of mass 10 mm higher"].trunk.com
     assert higher == pytest.approx((x, y, z + 0.01))
-    assert after["5 mm further back"].trunk.body.com == pytest.approx((x - 0.005, y, z))
+    assert after["5 mm further back"].trunk.com == pytest.approx((x - 0.005, y, z))
     legs = after["25 g from each tibia to its femur"].legs
     for leg, own in zip(legs, LILIBOT.legs, strict=True):
         assert leg.femur.mass == pytest.approx(own.femur.mass + 0.025)
@@ -96,30 +96,30 @@ def test_an_unknown_change_is_refused() -> None:
 
 
 def test_the_table_of_sensitivity_shows_what_did_not_form() -> None:
-    def figures(cell: Row) -> Row:
+    def figures(cell: Result) -> Result:
         time = None if cell["seed"] else 3.21
         return {STRICT: time, "path_speed_m_per_s": 0.05, "fell": bool(cell["seed"])}
 
     cells = {"change": ("nothing",), "mi": (0.08, 0.16)}
-    rows = made_up(cells, figures, methods=("apnc",), seeds=2, study="sensitivity")
-    assert sensitivity.table(rows).splitlines()[0] == (
+    results = made_up(cells, figures, controllers=("apnc",), seeds=2, study="sensitivity")
+    assert sensitivity.table(results).splitlines()[0] == (
         "| change | MI 0.08: trot after [s] | MI 0.08: speed [m/s] | "
         "MI 0.16: trot after [s] | MI 0.16: speed [m/s] | fell |"
     )
-    assert sensitivity.table(rows).splitlines()[2] == (
+    assert sensitivity.table(results).splitlines()[2] == (
         "| nothing | 3.2, - | 0.050 | 3.2, - | 0.050 | 2/4 |"
     )
 
 
 def test_the_duty_factor_is_shown_of_what_walked_at_more_mi() -> None:
-    def figures(cell: Row) -> Row:
+    def figures(cell: Result) -> Result:
         return {"duty_factor_mean": 0.5 + cell["mi"], "path_speed_m_per_s": 0.05}
 
     cells = {"change": ("nothing", "P x 0.8", sensitivity.SOFT), "mi": (0.08, 0.16, 0.24)}
-    every = made_up(cells, figures, methods=("apnc",), seeds=1, study="sensitivity")
+    every = made_up(cells, figures, controllers=("apnc",), seeds=1, study="sensitivity")
     assert "duty" not in sensitivity.table([r for r in every if r["mi"] < 0.2])
-    rows = [r for r in every if r["mi"] < 0.2 or r["change"] != "P x 0.8"]
-    changes, duty = sensitivity.table(rows).split("\n\n")
+    results = [r for r in every if r["mi"] < 0.2 or r["change"] != "P x 0.8"]
+    changes, duty = sensitivity.table(results).split("\n\n")
     assert "MI 0.24" not in changes and len(changes.splitlines()) == 5
     assert duty.splitlines()[2].startswith("| nothing | 0.58 (0.58 ... 0.58) | 0.050 (0.050")
     assert [line.split(" | ")[0] for line in duty.splitlines()[2:]] == [

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from made_up_rows import Row, made_up
+from made_up_results import Result, made_up
 from records import TROT, outputs, synthetic_record
 
 from apnc.loop.record import Record
 from apnc.studies.claims import FEW, NO, PARTLY, YES
-from apnc.studies.engine import grid_of
-from apnc.studies.rows import STRICT
+from apnc.studies.results import STRICT
+from apnc.studies.runner import grid_of
 from apnc_plant.robot import load_robot
 from research import symmetry
 from research.registry import STUDIES
@@ -44,11 +44,11 @@ def test_legs_part_when_one_leaves_the_phase_of_another() -> None:
     assert symmetry.measure(in_phase_until(99.0))["parted_at_s"] is None
 
 
-def apart(*parted: float | None) -> list[Row]:
+def apart(*parted: float | None) -> list[Result]:
     """When the legs of the symmetric robot part, by MI."""
     cells = {"mi": tuple(0.08 + 0.04 * i for i in range(len(parted)))}
-    rows = made_up(cells, lambda _: {}, methods=("apnc",), seeds=1, study="symmetry")
-    return [r | {symmetry.PARTED: t, STRICT: t} for r, t in zip(rows, parted, strict=True)]
+    results = made_up(cells, lambda _: {}, controllers=("apnc",), seeds=1, study="symmetry")
+    return [r | {symmetry.PARTED: t, STRICT: t} for r, t in zip(results, parted, strict=True)]
 
 
 @pytest.mark.parametrize(

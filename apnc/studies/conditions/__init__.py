@@ -6,13 +6,13 @@ from collections.abc import Callable, Sequence
 from itertools import product
 from typing import Any, Final, NamedTuple
 
+from apnc.controllers import ALL, named_controller
 from apnc.loop.experiment import Experiment
 from apnc.report.figure import Figure
 from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Finding, Rule, verdict
-from apnc.studies.contenders import ALL, contender
 from apnc.studies.plots import over_axis
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import Row, cells_in, matching, methods_in, values
+from apnc.studies.results import Result, cells_in, controllers_in, matching, values
 from apnc.studies.statistics import Comparison, compare, holm, of_runs, p_text
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others
 
@@ -34,7 +34,7 @@ class Compared(NamedTuple):
 
     metric: str
     condition: str
-    method: str
+    controller: str
     n: str
     test: Comparison | None
 
@@ -52,7 +52,7 @@ class Compared(NamedTuple):
     @property
     def text(self) -> str:
         """The comparison in words and figures."""
-        words = f"{self.metric} against {contender(self.method).name}"
+        words = f"{self.metric} against {named_controller(self.controller).name}"
         if self.test is None:
             return f"{words}: too few, n = {self.n}"
         return f"{words}: {p_text(self.test.p)}, r = {self.test.effect:.2f}, n = {self.n}"
@@ -63,17 +63,17 @@ def experiment(condition: str, **fields: Any) -> Experiment:
     return Experiment(conditions=condition, mi=WALK_MI, duration=WALK_S, **fields)
 
 
-def comparisons(rows: Sequence[Row]) -> list[Compared]:
+def comparisons(results: Sequence[Result]) -> list[Compared]:
     """APNC against every baseline that was run."""
-    baselines = [method for method in methods_in(rows) if method != "apnc"]
-    cells = product(METRICS, cells_in(rows, "condition"), baselines)
-    found = [_compared(rows, *cell) for cell in cells]
+    baselines = [controller for controller in controllers_in(results) if controller != "apnc"]
+    cells = product(METRICS, cells_in(results, "condition"), baselines)
+    found = [_compared(results, *cell) for cell in cells]
     corrected = iter(holm([each.test for each in found if each.test]))
     return [each._replace(test=next(corrected)) if each.test else each for each in found]
 
 
-def _compared(rows: Sequence[Row], metric: str, condition: str, baseline: str) -> Compared:
-    runs = [matching(rows, method=m, condition=condition) for m in ("apnc", baseline)]
+def _compared(results: Sequence[Result], metric: str, condition: str, baseline: str) -> Compared:
+    runs = [matching(results, controller=m, condition=condition) for m in ("apnc", baseline)]
     found = [values(own, metric) for own in runs]
     enough = all(len(v) >= max(MIN_SEEDS, len(own) / 2) for v, own in zip(found, runs, strict=True))
     n = " and ".join(of_runs(len(v), len(own)) for v, own in zip(found, runs, strict=True))
@@ -95,8 +95,8 @@ def _in_condition(
 ) -> Rule:
     """A claim on all tests of a condition; one that could not be made prevents 'reproduced'."""
 
-    def rule(rows: Sequence[Row]) -> Finding:
-        tests = [test for test in comparisons(rows) if test.condition == condition]
+    def rule(results: Sequence[Result]) -> Finding:
+        tests = [test for test in comparisons(results) if test.condition == condition]
         told = [holds(test) for test in tests if test.test]
         text = "; ".join(test.text for test in tests)
         if not told:
@@ -107,18 +107,18 @@ def _in_condition(
     return rule
 
 
-def figures(rows: Sequence[Row]) -> list[Figure]:
+def figures(results: Sequence[Result]) -> list[Figure]:
     """A metric each; the note says where APNC differs from a baseline."""
-    found, tests = [], [test for test in comparisons(rows) if test.differs]
+    found, tests = [], [test for test in comparisons(results) if test.differs]
     for metric, label in METRICS.items():
         differs = [
-            f"{t.condition} {contender(t.method).name} "
+            f"{t.condition} {named_controller(t.controller).name} "
             f"({p_text(t.test.p)}, r = {t.test.effect:.2f})"
             for t in tests
             if t.metric == metric and t.test
         ]
         note = f"APNC differs from: {'; '.join(differs) or 'no baseline'}. Mann-Whitney U, Holm."
-        found.append(over_axis(rows, ("condition", "condition"), metric, label, note))
+        found.append(over_axis(results, ("condition", "condition"), metric, label, note))
     return found
 
 

@@ -1,7 +1,7 @@
 """Section 4.1: how strong should the feedback be? From too weak to too strong, in each controller.
 
 It is also how the best setting of each baseline is chosen, see ``best_setting``: what is chosen
-stands in ``contenders``.
+stands in ``apnc.controllers``.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from apnc.controllers import CONTROLLERS, named_controller
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.report.figure import Figure
@@ -25,15 +26,23 @@ from apnc.studies.claims import (
     each_of,
     verdict,
 )
-from apnc.studies.contenders import CONTENDERS, contender
 from apnc.studies.plots import convergence
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import AUTHORS, STRICT, Row, cells_in, is_number, matching, successes, values
+from apnc.studies.results import (
+    AUTHORS,
+    STRICT,
+    Result,
+    cells_in,
+    is_number,
+    matching,
+    successes,
+    values,
+)
 from apnc.studies.states.measure import STOPPED, WALKS
 from apnc.studies.statistics import compare, median, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study
 from apnc.studies.table import markdown, middle
-from apnc_core.variables import variable_named as row_of
+from apnc_core.variables import variable_named
 
 GAINS: Final[Mapping[str, tuple[float, ...]]] = {
     "tegotae": (0.015, 0.03, 0.06, 0.09, 0.12, 0.15, 0.2, 0.3, 0.45),
@@ -62,9 +71,10 @@ LAST: Final = 3.0
 """End of a walk over which an oscillator that does not move has stopped [s]."""
 
 
-def experiment(method: str, seed: int, mi: float, gain: float) -> Experiment:
-    """A walk at a gain; a factor of 1 leaves the learning rates as the contender has them."""
-    walk = Experiment(method=method, seed=seed, mi=mi, duration=WALK_S)
+def experiment(controller: str, seed: int, mi: float, gain: float) -> Experiment:
+    """A walk at a gain; a factor of 1 leaves the learning rates as the controller has them."""
+    walk = Experiment(controller=controller, seed=seed, mi=mi, duration=WALK_S)
+    method = named_controller(controller).method
     if method in PARAMETERS:
         return replace(walk, settings={PARAMETERS[method]: gain})
     if gain == 1.0:
@@ -74,17 +84,17 @@ def experiment(method: str, seed: int, mi: float, gain: float) -> Experiment:
 
 
 def _scaled(name: str, value: Any, factor: float) -> float:
-    limit = row_of(name).max
+    limit = variable_named(name).max
     assert limit is not None
     return min(factor * float(value), limit)
 
 
 def seeds(cell: Mapping[str, Any], trials: int) -> int:
-    """A quarter of the seeds at the gains that the method has."""
-    return -(-trials // 4) if cell["gain"] in GAINS[cell["method"]] else 0
+    """A quarter of the seeds at the gains that the controller has."""
+    return -(-trials // 4) if cell["gain"] in GAINS[cell["controller"]] else 0
 
 
-def measure(record: Record) -> Row:
+def measure(record: Record) -> Result:
     """How many oscillators do not move at the end."""
     late = record.signals["o1"][record.time >= record.ended_at - LAST]
     if len(late) == 0:
@@ -92,7 +102,7 @@ def measure(record: Record) -> Row:
     return {STILL: int((np.ptp(late, axis=0) < STOPPED).sum())}
 
 
-def best_setting(rows: Sequence[Row]) -> float | None:
+def best_setting(results: Sequence[Result]) -> float | None:
     """The gain with the most walks in the strict trot; of equal ones that which forms it first.
 
     A walk counts if the gait formed by the criterion, the robot did not fall and it goes at
@@ -101,40 +111,40 @@ def best_setting(rows: Sequence[Row]) -> float | None:
     counting as never; then the smaller one.
 
     Args:
-        rows: of one method, with as many runs at every gain.
+        results: of one controller, with as many runs at every gain.
 
     Returns:
-        The gain, None without a row or if no run counts by either criterion.
+        The gain, None without a result or if no run counts by either criterion.
     """
 
     def merit(gain: float) -> tuple[int, int, float, float]:
-        own = matching(rows, gain=gain)
-        times = [row[AUTHORS] if is_number(row.get(AUTHORS)) else np.inf for row in own]
+        own = matching(results, gain=gain)
+        times = [result[AUTHORS] if is_number(result.get(AUTHORS)) else np.inf for result in own]
         return -walks(own), -walks(own, AUTHORS), float(np.median(times)), gain
 
-    best: float | None = min(cells_in(rows, "gain"), key=merit, default=None)
+    best: float | None = min(cells_in(results, "gain"), key=merit, default=None)
     return best if best is not None and merit(best)[:2] != (0, 0) else None
 
 
-def walks(rows: Sequence[Row], criterion: str = STRICT) -> int:
+def walks(results: Sequence[Result], criterion: str = STRICT) -> int:
     """How many runs end walking, after the gait formed by a criterion."""
-    fast = (is_number(row.get(LATE_SPEED)) and row[LATE_SPEED] >= WALKS for row in rows)
-    return sum(a and b for a, b in zip(successes(rows, criterion), fast, strict=True))
+    fast = (is_number(result.get(LATE_SPEED)) and result[LATE_SPEED] >= WALKS for result in results)
+    return sum(a and b for a, b in zip(successes(results, criterion), fast, strict=True))
 
 
-def _reference(rows: Sequence[Row], label: str) -> float | None:
+def _reference(results: Sequence[Result], label: str) -> float | None:
     """The gain that others are held against: the best of a baseline, the shipped one of APNC."""
-    return best_setting(rows) if label in PARAMETERS else 1.0
+    return best_setting(results) if label in PARAMETERS else 1.0
 
 
-def too_strong(rows: Sequence[Row]) -> Finding:
+def too_strong(results: Sequence[Result]) -> Finding:
     """At the strongest gain an oscillator has stopped in half of the runs, at the best in none.
 
     In some runs is 'partly'.
     """
 
     def of(label: str) -> Finding:
-        own = matching(rows, method=label)
+        own = matching(results, controller=label)
         good, most = _reference(own, label), max(cells_in(own, "gain"))
         at_best, at_most = (
             rate([number > 0 for number in values(own, STILL, gain=gain)]) for gain in (good, most)
@@ -148,11 +158,11 @@ def too_strong(rows: Sequence[Row]) -> Finding:
     return each_of(("tegotae", "apnc"), of)
 
 
-def too_weak(rows: Sequence[Row], column: str) -> Finding:
+def too_weak(results: Sequence[Result], column: str) -> Finding:
     """At the weakest gain the gait forms significantly later than at the best; never is latest."""
 
     def of(label: str) -> Finding:
-        own = matching(rows, method=label)
+        own = matching(results, controller=label)
         good, least = _reference(own, label), min(cells_in(own, "gain"))
         weak, best = (matching(own, gain=gain) for gain in (least, good))
         times = [[r.get(column) or r["duration"] for r in part] for part in (weak, best)]
@@ -170,25 +180,25 @@ def _text(gain: float | None) -> str:
     return "-" if gain is None else f"{gain:g}"
 
 
-def table(rows: Sequence[Row]) -> str:
-    """A line per method and gain; the best of a baseline is marked."""
+def table(results: Sequence[Result]) -> str:
+    """A line per controller and gain; the best of a baseline is marked."""
     lines = []
-    for label in (label for label in GAINS if matching(rows, method=label)):
-        own = matching(rows, method=label)
+    for label in (label for label in GAINS if matching(results, controller=label)):
+        own = matching(results, controller=label)
         best = best_setting(own) if label in PARAMETERS else None
         lines += [_line(label, gain, own, gain == best) for gain in cells_in(own, "gain")]
     return markdown(lines)
 
 
-def _line(label: str, gain: float, rows: Sequence[Row], best: bool) -> dict[str, str]:
-    own = matching(rows, gain=gain)
-    used = _reference(rows, label) if label == "apnc" else None
+def _line(label: str, gain: float, results: Sequence[Result], best: bool) -> dict[str, str]:
+    own = matching(results, gain=gain)
+    used = _reference(results, label) if label == "apnc" else None
     names = [PARAMETERS[label]] if label in PARAMETERS else []
-    for rival in CONTENDERS.values() if names else ():
-        used = gain if rival.settings.get(names[0]) == gain else used
+    for known in CONTROLLERS.values() if names else ():
+        used = gain if known.settings.get(names[0]) == gain else used
     marks = ["best"] * best + ["used"] * (used == gain)
     return {
-        "what": TITLES.get(label, contender(label).name),
+        "what": TITLES.get(label, named_controller(label).name),
         "value": f"{gain:g}",
         "": ", ".join(marks),
         "walks in the strict trot": f"{walks(own)}/{len(own)}",
@@ -201,11 +211,13 @@ def _line(label: str, gain: float, rows: Sequence[Row], best: bool) -> dict[str,
     }
 
 
-def figures(rows: Sequence[Row]) -> list[Figure]:
-    """Times and success over the gain, by method and criterion."""
+def figures(results: Sequence[Result]) -> list[Figure]:
+    """Times and success over the gain, by controller and criterion."""
     found = []
     for label, title in TITLES.items():
-        own = [row for row in rows if contender(row["method"]).method == label]
+        own = [
+            result for result in results if named_controller(result["controller"]).method == label
+        ]
         found += [
             replace(figure, key=figure.key.replace("gains", f"gains-{label}", 1))
             for figure in (convergence(own, ("gain", title)) if own else [])
@@ -224,7 +236,7 @@ STUDY: Final = Study(
     STUDIES["gains"],
     experiment,
     {"mi": (WALK_MI, 0.2), "gain": tuple(sorted({g for grid in GAINS.values() for g in grid}))},
-    methods=tuple(GAINS),
+    controllers=tuple(GAINS),
     seeds=seeds,
     measure=measure,
     claims=CLAIMS,

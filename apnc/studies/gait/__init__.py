@@ -14,7 +14,7 @@ from apnc.loop.record import Record
 from apnc.studies.claims import Claim, Finding, Rule, verdict
 from apnc.studies.plots import over_axis
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import STRICT, Row, cells_in, gait_in, matching, successes, values
+from apnc.studies.results import STRICT, Result, cells_in, gait_in, matching, successes, values
 from apnc.studies.statistics import rate
 from apnc.studies.study import WALK_S, Study
 from apnc.studies.table import markdown, middle
@@ -33,7 +33,7 @@ LIFT, SLIP, TOUCHES = "lowest_lift_mm", "largest_slip_share", "worst_touch_downs
 TURNED, LATE_SPEED = "turned_deg", "late_speed_m_per_s"
 
 
-def measure(record: Record) -> Row:
+def measure(record: Record) -> Result:
     """Figures of the worst foot from 10 s on; None for a run that did not get there.
 
     Returns:
@@ -74,9 +74,9 @@ def forms(low: float, high: float, share: float) -> Rule:
     'Partly' if it does at most of them.
     """
 
-    def rule(rows: Sequence[Row]) -> Finding:
-        mis = [mi for mi in cells_in(rows, "mi") if low <= mi <= high]
-        rates = {mi: rate(successes(rows, mi=mi)) for mi in mis}
+    def rule(results: Sequence[Result]) -> Finding:
+        mis = [mi for mi in cells_in(results, "mi") if low <= mi <= high]
+        rates = {mi: rate(successes(results, mi=mi)) for mi in mis}
         reached = sum(found.value >= share for found in rates.values())
         short = [f"MI {mi:g}: {hit}" for mi, hit in rates.items() if hit.value < share]
         text = f"at {reached} of {len(mis)} MI" + (f"; {', '.join(short)}" if short else "")
@@ -88,8 +88,8 @@ def forms(low: float, high: float, share: float) -> Rule:
 def quickly(limit: float) -> Rule:
     """The median strict time is at most a limit [s] at every MI of the core."""
 
-    def rule(rows: Sequence[Row]) -> Finding:
-        times = _by_mi(_core(rows), STRICT)
+    def rule(results: Sequence[Result]) -> Finding:
+        times = _by_mi(_core(results), STRICT)
         medians = {mi: float(np.median(found)) for mi, found in times.items() if found}
         if not medians:
             return Finding("no run forms the gait", verdict(False, False))
@@ -108,12 +108,12 @@ def worst(column: str, unit: str, digits: int, scale: float, fits: tuple[float, 
     'Partly' if it is at more than half of them. A run without the figure counts as outside.
     """
 
-    def rule(rows: Sequence[Row]) -> Finding:
+    def rule(results: Sequence[Result]) -> Finding:
         low, high = fits
         inside, texts = 0, []
-        cells = cells_in(rows, "mi")
+        cells = cells_in(results, "mi")
         for mi in cells:
-            own = matching(rows, mi=mi)
+            own = matching(results, mi=mi)
             found = values(own, column)
             median_value = float(np.median(found)) if len(found) > len(own) / 2 else None
             fit = median_value is not None and low <= median_value <= high
@@ -133,8 +133,8 @@ def straight(median_limit: float, limit: float) -> Rule:
     'Partly' if the median is below its limit at more than half of the MI.
     """
 
-    def rule(rows: Sequence[Row]) -> Finding:
-        turns = {mi: np.abs(found) for mi, found in _by_mi(rows, TURNED).items() if found}
+    def rule(results: Sequence[Result]) -> Finding:
+        turns = {mi: np.abs(found) for mi, found in _by_mi(results, TURNED).items() if found}
         if not turns:
             return Finding("nothing walked", verdict(False, False))
         medians = {mi: float(np.median(found)) for mi, found in turns.items()}
@@ -150,35 +150,35 @@ def straight(median_limit: float, limit: float) -> Rule:
     return rule
 
 
-def _core(rows: Sequence[Row]) -> list[Row]:
-    return [row for row in rows if CORE[0] <= row["mi"] <= CORE[1]]
+def _core(results: Sequence[Result]) -> list[Result]:
+    return [result for result in results if CORE[0] <= result["mi"] <= CORE[1]]
 
 
-def _by_mi(rows: Sequence[Row], column: str) -> dict[float, list[float]]:
-    return {mi: values(rows, column, mi=mi) for mi in cells_in(rows, "mi")}
+def _by_mi(results: Sequence[Result], column: str) -> dict[float, list[float]]:
+    return {mi: values(results, column, mi=mi) for mi in cells_in(results, "mi")}
 
 
-def table(rows: Sequence[Row]) -> str:
+def table(results: Sequence[Result]) -> str:
     """A line per MI; a trial that ended with an error counts as a failure."""
-    gait = gait_in(rows)
-    return markdown(_line(gait, mi, matching(rows, mi=mi)) for mi in cells_in(rows, "mi"))
+    gait = gait_in(results)
+    return markdown(_line(gait, mi, matching(results, mi=mi)) for mi in cells_in(results, "mi"))
 
 
-def _line(gait: str, mi: float, rows: list[Row]) -> dict[str, str]:
-    turns = [abs(value) for value in values(rows, TURNED)]
-    slips = [100.0 * value for value in values(rows, SLIP)]
+def _line(gait: str, mi: float, results: list[Result]) -> dict[str, str]:
+    turns = [abs(value) for value in values(results, TURNED)]
+    slips = [100.0 * value for value in values(results, SLIP)]
     return {
         "MI": f"{mi:.2f}",
-        f"strict {gait}": f"{sum(successes(rows))}/{len(rows)}",
-        "after [s], median (range)": middle(values(rows, STRICT), 1),
-        "lowest lift of a foot [mm]": middle(values(rows, LIFT), 1),
+        f"strict {gait}": f"{sum(successes(results))}/{len(results)}",
+        "after [s], median (range)": middle(values(results, STRICT), 1),
+        "lowest lift of a foot [mm]": middle(values(results, LIFT), 1),
         "largest slip of a foot [% of the stride]": middle(slips, 0),
-        "touch-downs of the worst foot": middle(values(rows, TOUCHES), 2),
+        "touch-downs of the worst foot": middle(values(results, TOUCHES), 2),
         "turn in 45 s [deg]": middle(turns, 0),
-        "speed [m/s]": middle(values(rows, LATE_SPEED), 3),
-        "stride [Hz]": middle(values(rows, "stride_frequency_hz"), 2),
-        "duty factor": middle(values(rows, "duty_factor_mean"), 2),
-        "fell": str(len(matching(rows, fell=True))),
+        "speed [m/s]": middle(values(results, LATE_SPEED), 3),
+        "stride [Hz]": middle(values(results, "stride_frequency_hz"), 2),
+        "duty factor": middle(values(results, "duty_factor_mean"), 2),
+        "fell": str(len(matching(results, fell=True))),
     }
 
 
@@ -202,14 +202,14 @@ STUDY: Final = Study(
     STUDIES["gait"],
     partial(Experiment, duration=WALK_S),
     {"mi": MI_VALUES},
-    methods=("apnc",),
+    controllers=("apnc",),
     measure=measure,
     claims=AIMS,
-    figures=lambda rows: [
-        over_axis(rows, AXIS, LIFT, "lowest lift of a foot [mm]"),
-        over_axis(rows, AXIS, SLIP, "largest slip of a foot [strides]"),
-        over_axis(rows, AXIS, TURNED, "turn [deg]"),
-        over_axis(rows, AXIS, LATE_SPEED, "speed [m/s]"),
+    figures=lambda results: [
+        over_axis(results, AXIS, LIFT, "lowest lift of a foot [mm]"),
+        over_axis(results, AXIS, SLIP, "largest slip of a foot [strides]"),
+        over_axis(results, AXIS, TURNED, "turn [deg]"),
+        over_axis(results, AXIS, LATE_SPEED, "speed [m/s]"),
     ],
     table=table,
 )

@@ -11,6 +11,7 @@ import numpy as np
 from scipy import stats
 
 from apnc import metrics
+from apnc.controllers import ALL, PHASE_RESET, TEGOTAE, named_controller
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.studies.claims import (
@@ -24,18 +25,17 @@ from apnc.studies.claims import (
     trend,
     verdict,
 )
-from apnc.studies.contenders import ALL, PHASE_RESET, TEGOTAE, contender
 from apnc.studies.plots import convergence, over_axis
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import (
+from apnc.studies.results import (
     AUTHORS,
     SPEED,
     STRICT,
-    Row,
+    Result,
     cells_in,
+    controllers_in,
     is_number,
     matching,
-    methods_in,
     successes,
     values,
 )
@@ -65,9 +65,9 @@ def within(limit: float) -> Rule:
     Fast, but not in every trial, is 'partly'.
     """
 
-    def check(rows: Sequence[Row], column: str) -> Finding:
-        time = median(values(rows, column, method="apnc"))
-        hits = rate(successes(rows, column, method="apnc"))
+    def check(results: Sequence[Result], column: str) -> Finding:
+        time = median(values(results, column, controller="apnc"))
+        hits = rate(successes(results, column, controller="apnc"))
         fast = time.size > 0 and time.value <= limit
         text = f"{time.text(1, 's')}, success {hits}"
         return Finding(text, verdict(fast and hits.value == 1.0, fast))
@@ -75,24 +75,26 @@ def within(limit: float) -> Rule:
     return both_criteria(check)
 
 
-def duty_at_high_mi(rows: Sequence[Row]) -> Finding:
+def duty_at_high_mi(results: Sequence[Result]) -> Finding:
     """From MI 0.24 on the median duty factor is within 0.05 of 0.72; within 0.1 is 'partly'."""
-    high = [row for row in matching(rows, method="apnc") if row["mi"] >= 0.24]
+    high = [result for result in matching(results, controller="apnc") if result["mi"] >= 0.24]
     duty = median(values(high, DUTY))
     off = abs(duty.value - 0.72)
     text = duty.text(2, runs=len(high))
     return Finding(text, verdict(off <= 0.05, off <= 0.1) if duty.size >= MIN_SEEDS else FEW)
 
 
-def stride_line(rows: Sequence[Row]) -> Finding:
+def stride_line(results: Sequence[Result]) -> Finding:
     """The median frequency of the oscillators is within 15 % of 8.6 MI + 0.5 Hz.
 
     Growing with MI is 'partly'.
     """
-    known = [row for row in matching(rows, method="apnc") if is_number(row.get(STRIDE))]
-    if len({row["mi"] for row in known}) < 3:
+    known = [
+        result for result in matching(results, controller="apnc") if is_number(result.get(STRIDE))
+    ]
+    if len({result["mi"] for result in known}) < 3:
         return Finding("too few", FEW)
-    mi, frequency = (np.array([row[name] for row in known]) for name in ("mi", STRIDE))
+    mi, frequency = (np.array([result[name] for result in known]) for name in ("mi", STRIDE))
     fit = stats.linregress(mi, frequency)
     off = float(np.median(np.abs(frequency / (8.6 * mi + 0.5) - 1.0)))
     line = f"S_f = {fit.slope:.1f} MI + {fit.intercept:.2f}"
@@ -100,7 +102,7 @@ def stride_line(rows: Sequence[Row]) -> Finding:
     return Finding(text, verdict(off <= 0.15, fit.slope > 0))
 
 
-def measure(record: Record) -> Row:
+def measure(record: Record) -> Result:
     """Which gait the robot has at the end; None for a run that did not come to its end.
 
     Returns:
@@ -117,33 +119,39 @@ def measure(record: Record) -> Row:
     return {GAIT: metrics.nearest_gait(final, metrics.STRICT_TOLERANCE) or "no name"}
 
 
-def table(rows: Sequence[Row]) -> str:
-    """A line per method and MI; a trial that ended with an error counts as a failure."""
-    cells = [(method, mi) for method in methods_in(rows) for mi in cells_in(rows, "mi")]
-    groups = [(*cell, matching(rows, method=cell[0], mi=cell[1])) for cell in cells]
+def table(results: Sequence[Result]) -> str:
+    """A line per controller and MI; a trial that ended with an error counts as a failure."""
+    cells = [
+        (controller, mi) for controller in controllers_in(results) for mi in cells_in(results, "mi")
+    ]
+    groups = [(*cell, matching(results, controller=cell[0], mi=cell[1])) for cell in cells]
     return markdown(_line(*group) for group in groups if group[2])
 
 
-def _line(method: str, mi: float, rows: list[Row]) -> dict[str, str]:
-    strict, loose, hits = values(rows, STRICT), values(rows, AUTHORS), rate(successes(rows))
+def _line(controller: str, mi: float, results: list[Result]) -> dict[str, str]:
+    strict, loose, hits = (
+        values(results, STRICT),
+        values(results, AUTHORS),
+        rate(successes(results)),
+    )
     low, half, high, longest = np.percentile(strict, [25, 50, 75, 100]) if strict else [0.0] * 4
     spread = f"{half:.1f} ({low:.1f} ... {high:.1f}; {longest:.1f})" if strict else "-"
     return {
-        "method": contender(method).name,
+        "controller": named_controller(controller).name,
         "MI": f"{mi:.2f}",
         "gait kept, strict (95 % interval)": str(hits),
         "strict time [s], median (quartiles; longest)": spread,
-        "gait at the end": gaits(rows),
-        "authors' criterion": f"{len(loose)}/{len(rows)}",
+        "gait at the end": gaits(results),
+        "authors' criterion": f"{len(loose)}/{len(results)}",
         "authors' time [s], median": f"{np.median(loose):.1f}" if loose else "-",
-        "speed [m/s], median (range)": middle(values(rows, "late_speed_m_per_s"), 3),
-        "fell": str(len(matching(rows, fell=True))),
+        "speed [m/s], median (range)": middle(values(results, "late_speed_m_per_s"), 3),
+        "fell": str(len(matching(results, fell=True))),
     }
 
 
-def gaits(rows: Sequence[Row]) -> str:
+def gaits(results: Sequence[Result]) -> str:
     """How many runs end in which gait, the most frequent first: ``tripod 17, unsettled 3``."""
-    count = Counter(row[GAIT] for row in rows if row.get(GAIT))
+    count = Counter(result[GAIT] for result in results if result.get(GAIT))
     return ", ".join(f"{name} {runs}" for name, runs in count.most_common()) or "-"
 
 
@@ -163,14 +171,14 @@ STUDY: Final = Study(
     STUDIES["mi"],
     partial(Experiment, duration=WALK_S),
     {"mi": MI_VALUES},
-    methods=("apnc", "apc", *ALL[1:]),
+    controllers=("apnc", "apc", *ALL[1:]),
     seeds=fewer_of_others(mi=OTHERS_MI),
     measure=measure,
     claims=CLAIMS,
-    figures=lambda rows: [
-        *convergence(rows, AXIS),
-        over_axis(rows, AXIS, DUTY, "duty factor [1]"),
-        over_axis(rows, AXIS, SPEED, "speed [m/s]"),
+    figures=lambda results: [
+        *convergence(results, AXIS),
+        over_axis(results, AXIS, DUTY, "duty factor [1]"),
+        over_axis(results, AXIS, SPEED, "speed [m/s]"),
     ],
     table=table,
 )

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Final
 
+from apnc.controllers import ALL, BASELINES, TEGOTAE
 from apnc.loop.experiment import Experiment
 from apnc.studies.claims import (
     Claim,
@@ -19,10 +20,9 @@ from apnc.studies.claims import (
     trend,
     verdict,
 )
-from apnc.studies.contenders import ALL, RIVALS, TEGOTAE
 from apnc.studies.plots import convergence
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import Row, successes
+from apnc.studies.results import Result, successes
 from apnc.studies.statistics import rate
 from apnc.studies.study import WALK_MI, Study, fewer_of_others
 
@@ -31,19 +31,19 @@ OTHERS_RATES: Final = (5.0, 15.0, 25.0, 30.0, 60.0)
 """Rates [Hz] at which the baselines walk, with half of the seeds."""
 
 
-def only_above(limit: float, methods: Sequence[str]) -> Rule:
-    """Above a rate [Hz] every trial of these methods forms the gait, up to it not every one."""
+def only_above(limit: float, controllers: Sequence[str]) -> Rule:
+    """Above a rate [Hz] every trial of these controllers forms the gait, up to it not every one."""
 
-    def check(rows: Sequence[Row], column: str) -> Finding:
-        low = [row for row in rows if row["rate"] <= limit]
-        high = [row for row in rows if row["rate"] > limit]
+    def check(results: Sequence[Result], column: str) -> Finding:
+        low = [result for result in results if result["rate"] <= limit]
+        high = [result for result in results if result["rate"] > limit]
 
-        def of(method: str) -> Finding:
-            below, above = (rate(successes(r, column, method=method)) for r in (low, high))
+        def of(controller: str) -> Finding:
+            below, above = (rate(successes(r, column, controller=controller)) for r in (low, high))
             text = f"{below} up to {limit:g} Hz, {above} above"
             return Finding(text, verdict(above.value == 1.0 and below.value < 1.0, False))
 
-        return each_of(methods, of)
+        return each_of(controllers, of)
 
     return both_criteria(check)
 
@@ -53,7 +53,7 @@ CLAIMS: Final = (
           time_trend("rate", -1, ALL), ALL),
     Claim("3.1.2, Fig. 5", "APNC succeeds in every trial at every rate", always("apnc")),
     Claim("3.1.2, Fig. 5", "Tegotae and phase resetting always succeed only above 25 Hz",
-          only_above(25.0, RIVALS), RIVALS),
+          only_above(25.0, BASELINES), BASELINES),
     Claim("3.1.2, Fig. 5", "APNC converges faster than Tegotae at every rate",
           faster([("apnc", other) for other in TEGOTAE], "rate"), ("apnc", *TEGOTAE)),
     Claim("3.3", "a higher update rate walks faster", trend("late_speed_m_per_s", "rate", 1)),
@@ -65,5 +65,5 @@ STUDY: Final = Study(
     {"rate": RATES},
     seeds=fewer_of_others(rate=OTHERS_RATES),
     claims=CLAIMS,
-    figures=lambda rows: convergence(rows, ("rate", "update rate [Hz]")),
+    figures=lambda results: convergence(results, ("rate", "update rate [Hz]")),
 )

@@ -18,7 +18,7 @@ import typer
 
 from apnc.studies.search.command import run, tracked
 from apnc.studies.search.costs import costs_of, names
-from apnc.studies.search.knobs import Candidate, Knob, knobs_of, start
+from apnc.studies.search.design import Candidate, DesignVariable, design_variables, start
 from apnc_core.types import Array
 from apnc_plant.robot import load_robot
 
@@ -26,7 +26,9 @@ from apnc_plant.robot import load_robot
 def search(
     output: Annotated[Path, typer.Option(help="Folder for search.csv.")] = Path("runs/search"),
     robot: Annotated[str, typer.Option(help="Name of the robot.")] = "lilibot",
-    method: Annotated[str, typer.Option(help="Controller: apnc, tegotae, phase_reset.")] = "apnc",
+    controller: Annotated[
+        str, typer.Option(help="Controller: apnc, tegotae, phase_reset.")
+    ] = "apnc",
     own_robot: Annotated[bool, typer.Option(help="A baseline's robot and pose, too.")] = False,
     feet: Annotated[float, typer.Option(help="Weight of lift, slip, touches and turn.")] = 1.0,
     seed: Annotated[int, typer.Option(help="Of optimiser and trials.")] = 1,
@@ -40,8 +42,8 @@ def search(
 
     Every generation has a new random robot and noise, the same for its candidates.
     """
-    knobs = knobs_of(robot, method, own_robot=own_robot)
-    first = [_within(knob.place(value)) for knob, value in _begin(robot, knobs, begin)]
+    variables = design_variables(robot, controller, own_robot=own_robot)
+    first = [_within(variable.scaled(value)) for variable, value in _begin(robot, variables, begin)]
     strategy = _strategy(first, sigma, seed, candidates)
     output.mkdir(parents=True, exist_ok=True)
     parts = names(len(load_robot(robot).legs))
@@ -50,17 +52,17 @@ def search(
     with (output / "search.csv").open("w", newline="", encoding="utf-8") as file:
         log = csv.writer(file)
         log.writerow(
-            ["generation", "cost", *(f"cost_{n}" for n in parts), *(k.name for k in knobs)]
+            ["generation", "cost", *(f"cost_{n}" for n in parts), *(k.name for k in variables)]
         )
         for generation in tracked(range(generations), generations, "generations"):
             points = strategy.ask()
-            tried = [_candidate(knobs, x) for x in points]
-            found = costs_of(tried, 1000 * seed + generation, robot, method, workers)
+            tried = [_candidate(variables, x) for x in points]
+            found = costs_of(tried, 1000 * seed + generation, robot, controller, workers)
             # squares: one large cost weighs more than many small ones
             weighed = np.multiply(found, weights)
             totals = (weighed + weighed**2).sum(axis=1).tolist()
             strategy.tell(points, totals)
-            mean = _candidate(knobs, strategy.result.xfavorite)
+            mean = _candidate(variables, strategy.result.xfavorite)
             middle = [float(np.median(totals)), *np.median(found, axis=0), *mean.values()]
             for candidate, each, total in zip(tried, found, totals, strict=True):
                 row = [total, *each, *candidate.values()]
@@ -75,16 +77,18 @@ def _within(x: float) -> float:
     return min(1.0, max(0.0, x))
 
 
-def _begin(robot: str, knobs: Sequence[Knob], log: Path | None) -> list[tuple[Knob, float]]:
+def _begin(
+    robot: str, variables: Sequence[DesignVariable], log: Path | None
+) -> list[tuple[DesignVariable, float]]:
     shipped = load_robot(robot)
-    values = {knob.name: start(shipped, knob.name) for knob in knobs}
+    values = {variable.name: start(shipped, variable.name) for variable in variables}
     if log is not None:
         with log.open(newline="", encoding="utf-8") as file:
             means = [r for r in csv.DictReader(file) if r.get("generation", "").startswith("mean")]
         if not means:
             raise ValueError(f"{log} has no mean of a generation; it is no log of a search")
         values |= {name: float(means[-1][name]) for name in values if name in means[-1]}
-    return [(knob, values[knob.name]) for knob in knobs]
+    return [(variable, values[variable.name]) for variable in variables]
 
 
 def _strategy(first: Sequence[float], sigma: float, seed: int, candidates: int) -> Any:
@@ -132,8 +136,10 @@ class Spread:
         return np.array([x[np.argmin(near @ cost / near.sum(axis=1))]])
 
 
-def _candidate(knobs: Sequence[Knob], x: Array) -> dict[str, float]:
-    return {knob.name: knob.value(float(v)) for knob, v in zip(knobs, x, strict=True)}
+def _candidate(variables: Sequence[DesignVariable], x: Array) -> dict[str, float]:
+    return {
+        variable.name: variable.value(float(v)) for variable, v in zip(variables, x, strict=True)
+    }
 
 
 if __name__ == "__main__":

@@ -17,10 +17,10 @@ from apnc import metrics
 from apnc.loop.experiment import Experiment
 from apnc.loop.many import walk_many
 from apnc.loop.record import Record
-from apnc.studies.search.knobs import Candidate, built_robot, gains
+from apnc.studies.search.design import Candidate, built_robot, gains
 from apnc.studies.states.measure import STOPPED, judge
 from apnc.studies.states.timeline import Timeline
-from apnc.studies.study import COURSE_MI, WALK_MI
+from apnc.studies.study import SCHEDULE_MI, WALK_MI
 from apnc_core.settings import SettingLike
 from apnc_core.types import Array
 from apnc_plant.conditions import ALL, Conditions
@@ -34,11 +34,11 @@ LAST_S: Final = 7.0
 
 BANDS: Final = {
     4: (
-        (0.08, 0.06, 0.07), (0.10, 0.12, 0.13), (COURSE_MI,), (0.20, 0.18, 0.22, 0.24),
+        (0.08, 0.06, 0.07), (0.10, 0.12, 0.13), (SCHEDULE_MI,), (0.20, 0.18, 0.22, 0.24),
         (0.28, 0.26, 0.30), (0.34, 0.32, 0.36), (0.40,),
     ),
-    6: ((WALK_MI,), (0.10, 0.09, 0.11), (0.12, 0.13), (COURSE_MI,), (0.18, 0.20)),
-    8: ((WALK_MI,), (0.10, 0.09, 0.11), (0.12, 0.13), (COURSE_MI,), (0.18, 0.20)),
+    6: ((WALK_MI,), (0.10, 0.09, 0.11), (0.12, 0.13), (SCHEDULE_MI,), (0.18, 0.20)),
+    8: ((WALK_MI,), (0.10, 0.09, 0.11), (0.12, 0.13), (SCHEDULE_MI,), (0.18, 0.20)),
 }  # fmt: skip
 """One MI of each band is walked in a generation, in turn; by number of legs."""
 
@@ -101,7 +101,7 @@ def costs_of(
     candidates: Sequence[Candidate],
     seed: int,
     robot_name: str = "lilibot",
-    method: str = "apnc",
+    controller: str = "apnc",
     workers: int = 1,
 ) -> list[tuple[float, ...]]:
     """Costs of candidates, by ``names``; ``FAILED`` in all of one that cannot be run.
@@ -110,7 +110,7 @@ def costs_of(
         candidates: what is tried, all with the same seeds.
         seed: of their runs.
         robot_name: of the robot.
-        method: name of the controller.
+        controller: name of the controller.
         workers: threads.
     """
     n_legs = len(load_robot(robot_name).legs)
@@ -119,7 +119,7 @@ def costs_of(
     failed: set[int] = set()
     for n, candidate in enumerate(candidates):
         try:
-            asked += [(n, task) for task in tasks(candidate, seed, robot_name, method)]
+            asked += [(n, task) for task in tasks(candidate, seed, robot_name, controller)]
         except ValueError:  # not a robot, or not parameters
             failed.add(n)
     for at, figures in walk_many(
@@ -142,7 +142,7 @@ def costs(found: Figures, n_legs: int) -> tuple[float, ...]:
     """Costs by ``names`` of the figures of all runs; 0 for what was not asked of the robot."""
     own = dict(found)
     if (fast := own.get(_speed(FASTEST))) is not None:
-        own["ratio"] = 1.5 * ratio_cost(own[_speed(COURSE_MI)], fast)
+        own["ratio"] = 1.5 * ratio_cost(own[_speed(SCHEDULE_MI)], fast)
     return tuple(own.get(name, 0.0) for name in names(n_legs))
 
 
@@ -151,7 +151,7 @@ def _speed(mi: float) -> str:
 
 
 def tasks(
-    candidate: Candidate, seed: int, robot_name: str = "lilibot", method: str = "apnc"
+    candidate: Candidate, seed: int, robot_name: str = "lilibot", controller: str = "apnc"
 ) -> Iterator[Task]:
     """The runs of a candidate.
 
@@ -162,25 +162,33 @@ def tasks(
         ValueError: numbers that are no robot, or no parameters of the controller.
     """
     robot, settings = built_robot(candidate, robot_name), gains(candidate)
-    n_legs, own = len(robot.legs), method == "apnc"
+    n_legs, own = len(robot.legs), controller == "apnc"
     bands, four = BANDS[n_legs], n_legs == 4
     seeds = itertools.count(100 * seed)  # another asymmetry and noise in every trial
 
     def walk(mi: float, **more: Any) -> Experiment:
-        what = {"robot": robot, "settings": settings, "method": method, "duration": WALK_S, **more}
+        what = {
+            "robot": robot,
+            "settings": settings,
+            "controller": controller,
+            "duration": WALK_S,
+            **more,
+        }
         return Experiment(mi=mi, seed=next(seeds), **what)
 
     # without the couplings at one MI: what they then store must be good by itself
     bare = seed % len(bands)
     for n, band in enumerate(bands):
         mi = band[seed % len(band)]
-        yield Task(walk(mi, method="apc" if own and n == bare else method), _walk_of(band[0]))
+        yield Task(
+            walk(mi, controller="apc" if own and n == bare else controller), _walk_of(band[0])
+        )
     if four:
         rate = RATES[seed % len(RATES)]
         slow = walk(WALK_MI, rate=rate, duration=WALK_S * 60.0 / rate)
         yield Task(slow, _cost("rate", formation_cost))
         yield Task(walk(WALK_MI, conditions="C4"), _cost("payload", payload_cost))
-    yield Task(walk(COURSE_MI, conditions="C3"), _cost("damage", damage_cost))
+    yield Task(walk(SCHEDULE_MI, conditions="C3"), _cost("damage", damage_cost))
     if own:
         gait = np.add(_target(n_legs), INEXACT[: n_legs - 1])
         stored: dict[str, SettingLike] = {"stored": True, "phi_stored": tuple(gait.tolist())}
@@ -301,7 +309,7 @@ def memory_cost(record: Record) -> float:
 
 
 STEERING: Final[Mapping[str, Any]] = {
-    "mi": COURSE_MI,
+    "mi": SCHEDULE_MI,
     "duration": 12.0,
     "turn": ((0.0, 0.0), (3.0, 0.5), (7.5, -0.5)),
 }
@@ -325,9 +333,9 @@ def blocked(robot: RobotDescription, settings: Mapping[str, float]) -> Experimen
     stuck = Conditions(stuck={leg.name: 0.9 for leg in robot.legs}, held_at=HELD_AT)
     return Experiment(
         robot=robot,
-        mi=COURSE_MI,
+        mi=SCHEDULE_MI,
         duration=15.0,
-        method="apc",
+        controller="apc",
         settings={**settings, **weaker},
         conditions=((0.0, silent), (STUCK_AT, stuck)),
     )

@@ -20,14 +20,14 @@ from apnc.loop.experiment import Experiment
 from apnc.loop.many import walk_many
 from apnc.loop.record import Record
 from apnc.studies import gait
-from apnc.studies.rows import Row
+from apnc.studies.results import Result
 from apnc.studies.search.command import run, tracked
-from apnc.studies.search.knobs import Candidate, built_robot, gains, knobs_of, start
-from apnc.studies.study import COURSE_MI, WALK_MI
+from apnc.studies.search.design import Candidate, built_robot, design_variables, gains, start
+from apnc.studies.study import SCHEDULE_MI, WALK_MI
 from apnc.summary import summarise
 from apnc_plant.robot import load_robot
 
-MI_VALUES: Final = (0.06, WALK_MI, 0.10, 0.12, COURSE_MI, 0.20, 0.28, 0.34, 0.40)
+MI_VALUES: Final = (0.06, WALK_MI, 0.10, 0.12, SCHEDULE_MI, 0.20, 0.28, 0.34, 0.40)
 WALK_S: Final = 25.0
 
 SHIPPED: Final = "shipped"
@@ -36,7 +36,7 @@ BETTER: Final = {"strict": 1, "payload": 1, "lift_mm": 1, "ratio": 1, "turn_deg"
 """The figures that collide, of which the front is: 1 if more is better, -1 if less."""
 
 
-def best_layers(points: ArrayLike, count: int) -> NDArray[np.intp]:
+def best_ranks(points: ArrayLike, count: int) -> NDArray[np.intp]:
     """The first ``count`` points when the front is taken away again and again.
 
     Args:
@@ -49,13 +49,13 @@ def best_layers(points: ArrayLike, count: int) -> NDArray[np.intp]:
     values = np.asarray(points, dtype=np.float64)
     left, found = np.arange(len(values)), np.empty(0, dtype=np.intp)
     while len(left) and len(found) < count:
-        layer = left[unbeaten(values[left])]
+        layer = left[non_dominated(values[left])]
         found = np.concatenate([found, layer[np.argsort(values[layer, 0], kind="stable")]])
         left = np.setdiff1d(left, layer)
     return found[:count]
 
 
-def unbeaten(points: ArrayLike) -> NDArray[np.bool_]:
+def non_dominated(points: ArrayLike) -> NDArray[np.bool_]:
     """Points to which no other is at least equal in all figures and better in one; shape (n,)."""
     p = np.asarray(points, dtype=np.float64)
     no_worse = (p[:, None] <= p).all(axis=2)
@@ -69,7 +69,7 @@ def candidates_of(logs: Sequence[Path], count: int, robot: str) -> dict[str, Can
     Raises:
         ValueError: a file that is no log of a search for APNC on this robot.
     """
-    names = [knob.name for knob in knobs_of(robot, "apnc")]
+    names = [variable.name for variable in design_variables(robot, "apnc")]
     tried: dict[str, Candidate] = {}
     points = []
     for log in logs:
@@ -77,15 +77,15 @@ def candidates_of(logs: Sequence[Path], count: int, robot: str) -> dict[str, Can
             table = csv.DictReader(file)
             if lacking := [n for n in ("generation", *names) if n not in (table.fieldnames or ())]:
                 raise ValueError(f"{log} has no column '{lacking[0]}'; it is no log of {robot}")
-            for line, row in enumerate(table, start=2):
-                if row["generation"].startswith("mean"):
+            for line, result in enumerate(table, start=2):
+                if result["generation"].startswith("mean"):
                     continue
-                costs = {name: float(v) for name, v in row.items() if name.startswith("cost_")}
+                costs = {name: float(v) for name, v in result.items() if name.startswith("cost_")}
                 feet = sum(v for name, v in costs.items() if "feet" in name or "ratio" in name)
                 points.append((sum(costs.values()) - feet, feet))
-                tried[f"{log.parent.name}:{line}"] = {name: float(row[name]) for name in names}
+                tried[f"{log.parent.name}:{line}"] = {name: float(result[name]) for name in names}
     labels = list(tried)
-    return {labels[n]: tried[labels[n]] for n in best_layers(points, count)}
+    return {labels[n]: tried[labels[n]] for n in best_ranks(points, count)}
 
 
 def walks_of(candidate: Candidate, robot: str, seeds: int) -> list[Experiment]:
@@ -100,34 +100,36 @@ def walks_of(candidate: Candidate, robot: str, seeds: int) -> list[Experiment]:
     return over_mi + [Experiment(seed=seed, **loaded) for seed in range(2 * seeds)]
 
 
-def row_of(record: Record) -> Row:
+def result_of(record: Record) -> Result:
     """What the figures of a candidate are made of, of one of its walks."""
     return summarise(record).to_dict() | gait.measure(record)
 
 
-def measured(walks: Sequence[Row], seeds: int) -> dict[str, float]:
+def measured(walks: Sequence[Result], seeds: int) -> dict[str, float]:
     """Figures of a candidate over MI, and with payload at MI 0.08.
 
     Args:
-        walks: a row of each, in the order of :func:`walks_of`.
+        walks: a result of each, in the order of :func:`walks_of`.
         seeds: at every MI.
     """
-    rows = {mi: walks[n * seeds : (n + 1) * seeds] for n, mi in enumerate(MI_VALUES)}
+    results = {mi: walks[n * seeds : (n + 1) * seeds] for n, mi in enumerate(MI_VALUES)}
     loaded = walks[len(MI_VALUES) * seeds :]
-    low = [_median(own, gait.LIFT, 0.0) for own in rows.values()]
-    slip = [_median(own, gait.SLIP, 1.0) for own in rows.values()]
-    turn = [_median(own, "turned_deg", 360.0, abs) * 45.0 / WALK_S for own in rows.values()]
-    strict = [row["converged"] is True for own in rows.values() for row in own]
-    speed = {mi: _median(rows[mi], "late_speed_m_per_s", 0.0) for mi in (COURSE_MI, MI_VALUES[-1])}
+    low = [_median(own, gait.LIFT, 0.0) for own in results.values()]
+    slip = [_median(own, gait.SLIP, 1.0) for own in results.values()]
+    turn = [_median(own, "turned_deg", 360.0, abs) * 45.0 / WALK_S for own in results.values()]
+    strict = [result["converged"] is True for own in results.values() for result in own]
+    speed = {
+        mi: _median(results[mi], "late_speed_m_per_s", 0.0) for mi in (SCHEDULE_MI, MI_VALUES[-1])
+    }
     return {
         "strict": float(np.mean(strict)),
-        "payload": float(np.mean([row["converged"] is True for row in loaded])),
+        "payload": float(np.mean([result["converged"] is True for result in loaded])),
         "lift_mm": float(np.mean(low)),
         "least_lift_mm": min(low),
         "lifts": sum(value >= 6.0 for value in low),
         "holds": sum(value <= 0.12 for value in slip),
         "turn_deg": float(np.median(turn)),
-        "ratio": speed[MI_VALUES[-1]] / speed[COURSE_MI] if speed[COURSE_MI] > 0.0 else 0.0,
+        "ratio": speed[MI_VALUES[-1]] / speed[SCHEDULE_MI] if speed[SCHEDULE_MI] > 0.0 else 0.0,
     }
 
 
@@ -137,25 +139,27 @@ def walked(
     """Label and figures of candidates as their walks are done; all of them walk side by side."""
     walks = {label: walks_of(candidate, robot, seeds) for label, candidate in tried.items()}
     places = [(label, n) for label, own in walks.items() for n in range(len(own))]
-    rows: dict[str, dict[int, Row]] = {label: {} for label in tried}
+    results: dict[str, dict[int, Result]] = {label: {} for label in tried}
     every = [experiment for own in walks.values() for experiment in own]
-    for at, row in walk_many(every, lambda _, record: row_of(record), workers=workers):
-        if isinstance(row, Exception):
-            raise row
+    for at, result in walk_many(every, lambda _, record: result_of(record), workers=workers):
+        if isinstance(result, Exception):
+            raise result
         label, n = places[at]
-        rows[label][n] = row
-        if len(rows[label]) == len(walks[label]):
-            own = rows.pop(label)
+        results[label][n] = result
+        if len(results[label]) == len(walks[label]):
+            own = results.pop(label)
             yield label, measured([own[n] for n in range(len(own))], seeds)
 
 
 def _median(
-    rows: Sequence[Mapping[str, Any]],
+    results: Sequence[Mapping[str, Any]],
     name: str,
     missing: float,
     of: Callable[[float], float] = lambda value: value,
 ) -> float:
-    return float(np.median([missing if row[name] is None else of(row[name]) for row in rows]))
+    return float(
+        np.median([missing if result[name] is None else of(result[name]) for result in results])
+    )
 
 
 def front(
@@ -172,7 +176,7 @@ def front(
     """
     tried = candidates_of(logs, count, robot)
     shipped = load_robot(robot)
-    names = [knob.name for knob in knobs_of(robot, "apnc")]
+    names = [variable.name for variable in design_variables(robot, "apnc")]
     tried = {SHIPPED: {name: start(shipped, name) for name in names}, **tried}
     found: dict[str, dict[str, float]] = {}
     try:
@@ -189,7 +193,9 @@ def _write(
     if not found:
         return
     labels = [label for label in tried if label in found]
-    best = unbeaten([[-sign * found[x][name] for name, sign in BETTER.items()] for x in labels])
+    best = non_dominated(
+        [[-sign * found[x][name] for name, sign in BETTER.items()] for x in labels]
+    )
     with output.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(["candidate", "front", *found[labels[0]], *tried[labels[0]]])

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from apnc.studies.claims import FEW, MIN_SEEDS, Claim, Finding, Rule, of_told, verdict
-from apnc.studies.contenders import RIVALS, contender
+from apnc.controllers import BASELINES, named_controller
+from apnc.studies.claims import FEW, MIN_SEEDS, Claim, Finding, Rule, of_decided, verdict
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import Row, gait_in, is_number, matching, methods_in, values
+from apnc.studies.results import Result, controllers_in, gait_in, is_number, matching, values
 from apnc.studies.states.figures import COUPLINGS, STATES, figures, scenes
 from apnc.studies.states.measure import measure
 from apnc.studies.states.timeline import TIMELINE
@@ -32,18 +32,18 @@ WITH_GAIT: Final = ("forms", "keeps the {gait} and walks", "comes back to the {g
 """The same of all others, of which the paper has no figure."""
 
 
-def state(name: str, method: str, when: tuple[str, str] | None = None) -> Rule:
-    """A state went as the paper says in every run of a method; half of them are 'partly'.
+def state(name: str, controller: str, when: tuple[str, str] | None = None) -> Rule:
+    """A state went as the paper says in every run of a controller; half of them are 'partly'.
 
     Args:
         name: S1, S2 or S3.
-        method: with (apnc) or without the couplings.
+        controller: with (apnc) or without the couplings.
         when: what else is told: a column in seconds, and its word.
     """
 
-    def rule(rows: Sequence[Row]) -> Finding:
-        runs = matching(rows, method=method)
-        hits = rate([bool(row.get(f"state_{name}")) for row in runs])
+    def rule(results: Sequence[Result]) -> Finding:
+        runs = matching(results, controller=controller)
+        hits = rate([bool(result.get(f"state_{name}")) for result in runs])
         speed = median(values(runs, f"state_speed_{name.lower()}"))
         text = f"{hits}, speed {speed.text(3, 'm/s', len(runs))}"
         if when:
@@ -59,36 +59,43 @@ def without_gait(name: str) -> Rule:
     In S2 only runs count that had the gait at the break.
     """
 
-    def rule(rows: Sequence[Row]) -> Finding:
+    def rule(results: Sequence[Result]) -> Finding:
         def of(label: str) -> Finding:
-            runs = matching(rows, method=label)
+            runs = matching(results, controller=label)
             runs = matching(runs, state_S1=True) if name == "S2" else runs
-            hits = rate([bool(row.get(f"state_{name}")) for row in runs])
+            hits = rate([bool(result.get(f"state_{name}")) for result in runs])
             speed = median(values(runs, f"state_speed_{name.lower()}"))
-            text = f"{gait_in(rows)} in {hits}, speed {speed.text(3, 'm/s', len(runs))}"
+            text = f"{gait_in(results)} in {hits}, speed {speed.text(3, 'm/s', len(runs))}"
             if hits.trials < MIN_SEEDS:
                 return Finding(text, FEW)
             return Finding(text, verdict(hits.successes == 0, hits.value < 0.5))
 
-        found = [of(label) for label in RIVALS]
-        texts = (f"{contender(m).name}: {f.measured}" for m, f in zip(RIVALS, found, strict=True))
-        return Finding("; ".join(texts), of_told([f.verdict for f in found]))
+        found = [of(label) for label in BASELINES]
+        texts = (
+            f"{named_controller(m).name}: {f.measured}"
+            for m, f in zip(BASELINES, found, strict=True)
+        )
+        return Finding("; ".join(texts), of_decided([f.verdict for f in found]))
 
     return rule
 
 
-def gamma_by_itself(rows: Sequence[Row]) -> Finding:
+def gamma_by_itself(results: Sequence[Result]) -> Finding:
     """With all feedback kept gamma falls to half or less when the couplings are on, in the median.
 
     To four fifths is 'partly'. With less feedback kept the fall is imposed and proves nothing.
     """
     texts, ratios = [], []
     for label in ("apnc", "apnc_kept"):
-        runs = [row for row in matching(rows, method=label) if is_number(row.get(GAMMA[1]))]
+        runs = [
+            result
+            for result in matching(results, controller=label)
+            if is_number(result.get(GAMMA[1]))
+        ]
         before, after = (median(values(runs, column)).value for column in GAMMA)
-        ratios = [row[GAMMA[1]] / row[GAMMA[0]] for row in runs if row[GAMMA[0]] > 0.0]
+        ratios = [result[GAMMA[1]] / result[GAMMA[0]] for result in runs if result[GAMMA[0]] > 0.0]
         fall = f"{before:.3f} to {after:.3f}" if runs else "-"
-        texts.append(f"{contender(label).name}: {fall}, n = {len(runs)}")
+        texts.append(f"{named_controller(label).name}: {fall}, n = {len(runs)}")
     text = f"imposed in APNC by feedback_kept; {'; '.join(texts)}"
     if len(ratios) < MIN_SEEDS:
         return Finding(text, FEW)
@@ -98,19 +105,21 @@ def gamma_by_itself(rows: Sequence[Row]) -> Finding:
     )
 
 
-def table(rows: Sequence[Row]) -> str:
+def table(results: Sequence[Result]) -> str:
     """Success per state with its exact 95 % interval, times and speeds."""
     return markdown(
         {
-            "couplings": COUPLINGS.get(method, contender(method).name),
+            "couplings": COUPLINGS.get(controller, named_controller(controller).name),
             "state": name,
-            "as the paper says": meaning.format(gait=gait_in(rows)),
+            "as the paper says": meaning.format(gait=gait_in(results)),
             "success (95 % interval)": str(rate([bool(run.get(f"state_{name}")) for run in runs])),
             "time [s], median (range)": middle(values(runs, time), 1),
             "speed [m/s], median (range)": middle(values(runs, f"state_speed_{name.lower()}"), 3),
         }
-        for method in methods_in(rows)
-        for runs, meanings in [(matching(rows, method=method), MEANING.get(method, WITH_GAIT))]
+        for controller in controllers_in(results)
+        for runs, meanings in [
+            (matching(results, controller=controller), MEANING.get(controller, WITH_GAIT))
+        ]
         for name, meaning, time in zip(STATES, meanings, (FORMED[0], "", BACK[0]), strict=True)
     )
 
@@ -126,9 +135,9 @@ CLAIMS: Final = (
     Claim("3.2.3, Fig. 12A", "S3: without ANC the robot stays on the spot, legs in phase",
           state("S3", "apc"), ("apc",)),
     Claim("3.1.4, note 5", "with broken feedback Tegotae and phase resetting lose the gait (S2)",
-          without_gait("S2"), RIVALS),
+          without_gait("S2"), BASELINES),
     Claim("3.1.4, note 5", "Tegotae and phase resetting store no gait and do not recover it (S3)",
-          without_gait("S3"), RIVALS),
+          without_gait("S3"), BASELINES),
     Claim("3.2.1", "once the couplings are on the feedback gain gamma becomes small by itself",
           gamma_by_itself, ("apnc", "apnc_kept")),
 )  # fmt: skip
@@ -136,7 +145,7 @@ CLAIMS: Final = (
 STUDY: Final = Study(
     STUDIES["states"],
     TIMELINE.experiment,
-    methods=(*COUPLINGS, *RIVALS, "apnc_kept"),
+    controllers=(*COUPLINGS, *BASELINES, "apnc_kept"),
     seeds=fewer_of_others(),
     measure=measure,
     claims=CLAIMS,

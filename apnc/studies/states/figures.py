@@ -18,9 +18,9 @@ from apnc.report import theme
 from apnc.report.figure import Figure, Trace
 from apnc.report.figures import all_figures
 from apnc.report.panels import Run, line, stacked
+from apnc.studies.intervals import marked
 from apnc.studies.plots import side_by_side
-from apnc.studies.rows import Row, values
-from apnc.studies.sections import marked
+from apnc.studies.results import Result, values
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.study import Robot
 from apnc.summary import summarise
@@ -31,7 +31,7 @@ STATES: Final = ("S1", "S2", "S3")
 PANELS: Final = ("cpg", "phi", "gait", "gamma", "kappa")
 """Of the report of a walk: outputs, relative phases, stances, gain of the feedback, couplings."""
 
-_SECTIONS: Final = (
+_INTERVALS: Final = (
     (TIMELINE.lowered, TIMELINE.broken, "S1"),
     (TIMELINE.broken, TIMELINE.stopped, "S2: RF, LF stuck at 0.9"),
     (TIMELINE.stopped, TIMELINE.restarted, "MI = 0"),
@@ -39,12 +39,12 @@ _SECTIONS: Final = (
 )
 
 
-def figures(rows: Sequence[Row]) -> list[Figure]:
+def figures(results: Sequence[Result]) -> list[Figure]:
     """Speed at the end of each state, with and without the couplings."""
     groups = {
-        f"{state} {words}": values(rows, f"state_speed_{state.lower()}", method=method)
+        f"{state} {words}": values(results, f"state_speed_{state.lower()}", controller=controller)
         for state in STATES
-        for method, words in COUPLINGS.items()
+        for controller, words in COUPLINGS.items()
     }
     note = "S1: formed; S2: front sensors stuck at 0.9; S3: after a reset, without feedback."
     return [side_by_side("states-speed", "Speed in each state", note, "speed [m/s]", groups)]
@@ -53,8 +53,8 @@ def figures(rows: Sequence[Row]) -> list[Figure]:
 def scenes(robot: Robot) -> list[Figure]:
     """The run of seed 0 with and without the couplings, over time."""
     runs = {
-        words: simulate(TIMELINE.experiment(method, 0, robot=robot, engine=COMPILED))
-        for method, words in COUPLINGS.items()
+        words: simulate(TIMELINE.experiment(controller, 0, robot=robot, engine=COMPILED))
+        for controller, words in COUPLINGS.items()
     }
     return [figure for words, record in runs.items() for figure in over_time(record, words)]
 
@@ -65,8 +65,8 @@ def over_time(record: Record, words: str) -> list[Figure]:
     panels = [_loads(run), *(panel for panel in all_figures(run) if panel.key in PANELS)]
     return [
         replace(
-            marked(panel, record.time[run.samples.at], _SECTIONS),
-            key=f"states-{panel.key}-{record.experiment.method}",
+            marked(panel, record.time[run.samples.at], _INTERVALS),
+            key=f"states-{panel.key}-{record.experiment.controller}",
             title=f"{panel.title}, {words}",
         )
         for panel in panels
@@ -91,17 +91,17 @@ def _loads(run: Run) -> Figure:
             run.line(stuck, "F, broken sensor", theme.VERMILLION, width=2.6, **look),
         ]
 
-    rows = [("MI [1]", [run.line(record.signals["MI"], "MI", theme.INK, **look)])]
-    rows += [
+    panels = [("MI [1]", [run.line(record.signals["MI"], "MI", theme.INK, **look)])]
+    panels += [
         (f"<b>{leg}</b> F [1]", lines(i, colour))
         for i, (leg, colour) in enumerate(run.colours.items())
     ]
     note = (
         "F: load of each foot as the circuits get it, in halves of the weight; thick where the "
         "sensor is stuck or silent. Grey: vertical force of the ground on the foot in the same "
-        "unit; the rows cut off its peaks."
+        "unit; the panels cut off its peaks."
     )
-    figure = stacked("loads", "Command and loads", note, rows)
+    figure = stacked("loads", "Command and loads", note, panels)
     for i in range(record.n_legs):
         figure.layout[f"yaxis{i + 2}"] |= {"range": [-0.08, 1.25]}
     empty = {"x": [None], "hoverinfo": "skip"}

@@ -9,7 +9,7 @@ import numpy as np
 
 from apnc import metrics
 from apnc.loop.record import End, Record
-from apnc.studies.rows import Row
+from apnc.studies.results import Result
 from apnc.studies.states.timeline import TIMELINE, Timeline
 
 STOPPED: Final = 0.2
@@ -32,11 +32,11 @@ AROUND: Final = 2.0
 """Time before the couplings switch on, and before the break, over which gamma is the mean [s]."""
 
 
-def measure(record: Record) -> Row:
+def measure(record: Record) -> Result:
     """What became of the gait; of a run that ended early no state went as the paper says."""
     if record.complete and record.ended_at >= TIMELINE.end:
         found = judge(record)
-        found |= as_paper_says(found, record.experiment.method)
+        found |= as_paper_says(found, record.experiment.controller)
     else:
         found = {"S1": False, "S2": False, "S3": False}
     return {f"state_{name}": value for name, value in found.items()} | {
@@ -44,19 +44,19 @@ def measure(record: Record) -> Row:
     }
 
 
-def as_paper_says(found: Row, method: str) -> Row:
+def as_paper_says(found: Result, controller: str) -> Result:
     """Whether S1, S2 and S3 went as in Fig. 10-12; ``apc`` is without, all else with couplings.
 
     A baseline is judged like the controller with couplings: does it keep and recover the gait?
     """
     s2 = found["kept"] and found["speed_s2"] >= WALKS
     s3 = found["recovered"] and found["speed_s3"] >= WALKS
-    if method == "apc":
+    if controller == "apc":
         s2, s3 = found["front_stopped"], found["in_phase"] and abs(found["speed_s3"]) <= ROOTED
     return {"S1": found["formed"], "S2": s2, "S3": s3}
 
 
-def judge(record: Record, when: Timeline = TIMELINE) -> Row:
+def judge(record: Record, when: Timeline = TIMELINE) -> Result:
     """What became of the gait in a complete run along a timeline.
 
     Returns:
@@ -115,7 +115,7 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Row:
     }
 
 
-def _gamma(record: Record, stored: float, when: Timeline) -> Row:
+def _gamma(record: Record, stored: float, when: Timeline) -> Result:
     if not when.lowered + AROUND <= stored <= when.broken - AROUND:
         return {"gamma_before": None, "gamma_after": None}
     gamma, time = record.signals["gamma"], record.time

@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any, Final
 
 from apnc.loop.experiment import Experiment
-from apnc.studies.study import COURSE_MI
+from apnc.studies.study import SCHEDULE_MI
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,12 @@ class Timeline:
         if self.lowered < 0.0 or not all(a < b for a, b in pairwise(times)):
             raise ValueError(f"times {times} s do not follow each other")
 
-    def experiment(self, method: str, seed: int, **fields: Any) -> Experiment:
+    def experiment(self, controller: str, seed: int, **fields: Any) -> Experiment:
         """The run through all states."""
         steps = {0.0: "S1", self.lowered: "C1", self.broken: "S2", self.stopped: "S3"}
-        mi = ((0.0, COURSE_MI), (self.stopped, 0.0), (self.restarted, COURSE_MI))
+        mi = ((0.0, SCHEDULE_MI), (self.stopped, 0.0), (self.restarted, SCHEDULE_MI))
         return Experiment(
-            method=method,
+            controller=controller,
             seed=seed,
             mi=mi,
             conditions=tuple(steps.items()),

@@ -13,27 +13,30 @@ from apnc.loop.record import Record
 from apnc.loop.steps import steps_of
 from apnc.studies.claims import FEW, MIN_SEEDS, NO, PARTLY, YES, Claim, Finding, ranks, verdict
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import Row, cells_in, matching, values
+from apnc.studies.results import Result, cells_in, matching, values
 from apnc.studies.statistics import median
-from apnc.studies.steering.course import SLOPES, SPEED, YAW_RATE, experiment
 from apnc.studies.steering.figures import figures, scenes
+from apnc.studies.steering.schedules import SLOPES, SPEED, YAW_RATE, experiment
 from apnc.studies.study import Study
 
 SETTLING: Final = 5.0
-"""Time from the start of a section that does not count: the robot follows a new command [s]."""
+"""Time from the start of an interval that does not count: the robot follows a new command [s]."""
 
 
-def measure(record: Record) -> Row:
-    """Yaw rate [rad/s] in every section of the course of turns, else speed along the heading [m/s].
+def measure(record: Record) -> Result:
+    """Mean yaw rate or speed in every interval of a schedule.
 
-    The mean over a section after its settling; None for one that the robot did not walk to its end.
+    Returns:
+        ``yaw_rate_section_N`` [rad/s] of interval N for the schedule of turns, otherwise
+        ``speed_section_N``, the speed along the heading [m/s]. The first 5 s of an interval do not
+        count. None for an interval that the robot did not walk to its end.
     """
     turning = isinstance(record.experiment.turn, tuple)
     steps = steps_of(record.experiment.turn if turning else record.experiment.mi)
     starts = [start for start, _ in steps]
     yaw = np.unwrap(record.signals["rpy"][:, 2])
     place = record.signals["position"]
-    found: Row = {}
+    found: Result = {}
     for i, end in enumerate([*starts[1:], record.experiment.duration]):
         begin, name = starts[i] + SETTLING, f"{YAW_RATE if turning else SPEED}_{i + 1}"
         inside = np.flatnonzero((record.time >= begin) & (record.time < end))
@@ -48,12 +51,12 @@ def measure(record: Record) -> Row:
     return found
 
 
-def speed_steps(rows: Sequence[Row]) -> Finding:
+def speed_steps(results: Sequence[Result]) -> Finding:
     """Speed doubles within a fifth with the step of MI, and comes back within 15 %.
 
     Faster at the higher MI is 'partly'.
     """
-    runs = matching(rows, course="speeds")
+    runs = matching(results, schedule="speeds")
     low, high, again = (median(values(runs, f"{SPEED}_{i}")) for i in (1, 2, 3))
     text = ", ".join(each.text(3, "m/s", len(runs)) for each in (low, high, again))
     if min(low.size, high.size, again.size) < MIN_SEEDS:
@@ -63,12 +66,12 @@ def speed_steps(rows: Sequence[Row]) -> Finding:
     return Finding(text, verdict(doubled and back, high.value > low.value))
 
 
-def turns(rows: Sequence[Row]) -> Finding:
+def turns(results: Sequence[Result]) -> Finding:
     """The intervals of the yaw rate are below 0 to the right and above 0 to the left.
 
     Less to the left on the way to the right is 'partly'.
     """
-    runs = matching(rows, course="turns")
+    runs = matching(results, schedule="turns")
     right, left = (median(values(runs, f"{YAW_RATE}_{i}")) for i in (2, 3))
     text = f"right {right.text(2, 'rad/s', len(runs))}, left {left.text(2, 'rad/s', len(runs))}"
     if min(right.size, left.size) < MIN_SEEDS:
@@ -76,9 +79,13 @@ def turns(rows: Sequence[Row]) -> Finding:
     return Finding(text, verdict(right.high < 0.0 < left.low, right.value < left.value))
 
 
-def slopes_speed(rows: Sequence[Row]) -> Finding:
+def slopes_speed(results: Sequence[Result]) -> Finding:
     """Speed grows with the slopes, see ``ranks``; only up to the robot's own is 'partly'."""
-    runs = [{**row, "slopes": SLOPES[row["course"]]} for row in rows if row.get("course") in SLOPES]
+    runs = [
+        {**result, "slopes": SLOPES[result["schedule"]]}
+        for result in results
+        if result.get("schedule") in SLOPES
+    ]
     column = f"{SPEED}_1"
     text = ", ".join(
         f"{median(values(runs, column, slopes=x)).text(3, 'm/s')} at {x:g}"
@@ -99,9 +106,9 @@ CLAIMS: Final = (
 STUDY: Final = Study(
     STUDIES["steering"],
     experiment,
-    {"course": ("speeds", "turns", *SLOPES)},
-    methods=("apnc",),
-    seeds=lambda cell, trials: math.ceil(trials / 2) if cell["course"] in SLOPES else trials,
+    {"schedule": ("speeds", "turns", *SLOPES)},
+    controllers=("apnc",),
+    seeds=lambda cell, trials: math.ceil(trials / 2) if cell["schedule"] in SLOPES else trials,
     measure=measure,
     claims=CLAIMS,
     figures=figures,

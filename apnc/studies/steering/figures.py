@@ -1,4 +1,4 @@
-"""Speed and yaw rate per section, and one run along each course over time (Fig. 13, 14)."""
+"""Speed and yaw rate per interval, and one run along each schedule over time (Fig. 13, 14)."""
 
 from __future__ import annotations
 
@@ -17,51 +17,52 @@ from apnc.report import theme
 from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import Run, line, stacked
+from apnc.studies.intervals import Interval, marked
 from apnc.studies.plots import COLOURS, side_by_side
-from apnc.studies.rows import Row, matching, values
-from apnc.studies.sections import Section, marked
-from apnc.studies.steering.course import SPEED, SPEEDS, YAW_RATE, experiment
+from apnc.studies.results import Result, matching, values
+from apnc.studies.steering.schedules import SPEED, SPEEDS, YAW_RATE, experiment
 from apnc.studies.study import Robot
 from apnc.summary import summarise
 from apnc_core.types import Array
 
 WAYS: Final = ("straight", "right", "left", "straight again")
-"""What the robot is told to do in each section of the course of turns."""
+"""What the robot is told to do in each interval of the schedule of turns."""
 
 
-def figures(rows: Sequence[Row]) -> list[Figure]:
-    """Speed over the sections of the one course, yaw rate over those of the other."""
-    mis = [f"MI {mi:g}, section {i}" for i, (_, mi) in enumerate(SPEEDS, start=1)]
+def figures(results: Sequence[Result]) -> list[Figure]:
+    """Speed over the intervals of the one schedule, yaw rate over those of the other."""
+    mis = [f"MI {mi:g}, interval {i}" for i, (_, mi) in enumerate(SPEEDS, start=1)]
     return [
-        side_by_side(f"steering-{course}", title, note, unit, {
-            name: values(rows, f"{column}_{i}", course=course)
+        side_by_side(f"steering-{schedule}", title, note, unit, {
+            name: values(results, f"{column}_{i}", schedule=schedule)
             for i, name in enumerate(names, start=1)
         })
-        for course, title, note, unit, column, names in (
+        for schedule, title, note, unit, column, names in (
             ("speeds", "Speed", "MI stepped up and down.", "speed [m/s]", SPEED, mis),
             ("turns", "Yaw rate", "Positive turns left.", "yaw rate [rad/s]", YAW_RATE, WAYS),
         )
-        if matching(rows, course=course)
+        if matching(results, schedule=schedule)
     ]  # fmt: skip
 
 
 def scenes(robot: Robot) -> list[Figure]:
-    """The run of seed 0 along each course."""
+    """The run of seed 0 along each schedule."""
     speeds, turns = (
-        simulate(experiment(course, robot=robot, engine=COMPILED)) for course in ("speeds", "turns")
+        simulate(experiment(schedule, robot=robot, engine=COMPILED))
+        for schedule in ("speeds", "turns")
     )
     return [speeds_over_time(speeds), turns_over_time(turns), path(turns)]
 
 
 def speeds_over_time(record: Record) -> Figure:
-    """MI, speed, way and stride frequency over the course of speeds."""
+    """MI, speed, way and stride frequency over the schedule of speeds."""
     run, plant, time = Run(record, summarise(record)), record.signals, record.time
     (velocity_x, velocity_y, _), yaw = plant["velocity"].T, plant["rpy"][:, 2]
     ahead = velocity_x * np.cos(yaw) + velocity_y * np.sin(yaw)
     slow = metrics.smoothed_speed(time, plant["position"], yaw)
     steps = np.diff(metrics.smooth(plant["position"][:, :2]), axis=0)
     way = np.append(0.0, np.cumsum(np.linalg.norm(steps, axis=1)))
-    rows = [
+    panels = [
         ("MI [1]", [_command(run, record.signals["MI"])]),
         ("speed [m/s]", [
             run.line(ahead, "at every moment", theme.SKY, width=0.7),
@@ -74,19 +75,19 @@ def speeds_over_time(record: Record) -> Figure:
         "Speed along the present heading; length of the smoothed path; stride frequency of each "
         "leg, from the cycles of its oscillator. Seed 0."
     )
-    figure = stacked("steering-speeds-time", "Course of speeds", note, rows)
+    figure = stacked("steering-speeds-time", "Schedule of speeds", note, panels)
     figure.layout["yaxis4"] |= {"rangemode": "tozero"}
     words = [f"MI {mi:g}" for _, mi in steps_of(record.experiment.mi)]
-    return marked(figure, time[run.samples.at], _sections(record, record.experiment.mi, words))
+    return marked(figure, time[run.samples.at], _intervals(record, record.experiment.mi, words))
 
 
 def turns_over_time(record: Record) -> Figure:
-    """Steering, hip commands of the front legs, yaw and yaw rate over the course of turns."""
+    """Steering, hip commands of the front legs, yaw and yaw rate over the schedule of turns."""
     run, time = Run(record, summarise(record)), record.time
     yaw = np.unwrap(record.signals["rpy"][:, 2])
     hips = np.degrees(record.signals["theta_hip"]).T
     front = {leg: hip for leg, hip in zip(record.legs, hips, strict=True) if leg.endswith("F")}
-    rows = [
+    panels = [
         ("turn [1]", [_command(run, record.signals["turn"])]),
         *(
             (f"hip {leg} [°]", [run.line(hip, leg, run.colours[leg], width=0.9)])
@@ -101,19 +102,19 @@ def turns_over_time(record: Record) -> Figure:
         "Positive turns left: larger commands to the right legs, smaller ones to the left. Rate: "
         "of the yaw, smoothed over 1.5 s. Seed 0."
     )
-    figure = stacked("steering-turns-time", "Course of turns", note, rows)
+    figure = stacked("steering-turns-time", "Schedule of turns", note, panels)
     low, high = np.min(list(front.values())), np.max(list(front.values()))
-    for row in range(2, 2 + len(front)):
-        figure.layout[f"yaxis{row}"] |= {"range": [low - 1.0, high + 1.0]}
-    return marked(figure, time[run.samples.at], _sections(record, record.experiment.turn, WAYS))
+    for panel in range(2, 2 + len(front)):
+        figure.layout[f"yaxis{panel}"] |= {"range": [low - 1.0, high + 1.0]}
+    return marked(figure, time[run.samples.at], _intervals(record, record.experiment.turn, WAYS))
 
 
 def path(record: Record) -> Figure:
-    """Path of the trunk from above along the course of turns, a colour per section."""
+    """Path of the trunk from above along the schedule of turns, a colour per interval."""
     at = metrics.smooth(record.signals["position"][:, :2])
     traces: list[Trace] = []
-    sections = _sections(record, record.experiment.turn, WAYS)
-    for i, (begin, end, name) in enumerate(sections):
+    intervals = _intervals(record, record.experiment.turn, WAYS)
+    for i, (begin, end, name) in enumerate(intervals):
         inside = slice(*np.searchsorted(record.time, [begin - 1e-9, end + 1e-9]))
         x, y = at[inside].T
         text = f"{name}, {begin:g} to {end:g} s"
@@ -126,10 +127,10 @@ def path(record: Record) -> Figure:
     equal = theme.axis("y [m]", scaleanchor="x", scaleratio=1)
     layout = theme.layout(460, xaxis=theme.axis("x [m]"), yaxis=equal, hovermode="closest")
     note = "Seen from above, equal scales; smoothed over 1.5 s. The robot starts along x. Seed 0."
-    return Figure("steering-path", "Path of the course of turns", note, traces, layout, False)
+    return Figure("steering-path", "Path of the schedule of turns", note, traces, layout, False)
 
 
-def _sections(record: Record, command: object, names: Sequence[str]) -> list[Section]:
+def _intervals(record: Record, command: object, names: Sequence[str]) -> list[Interval]:
     starts = [start for start, _ in steps_of(command)]
     return [
         (*span, name)

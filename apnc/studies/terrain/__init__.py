@@ -7,6 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from apnc.controllers import ALL, PHASE_RESET, TEGOTAE
 from apnc.loop.experiment import Experiment
 from apnc.studies.claims import (
     FEW,
@@ -21,10 +22,9 @@ from apnc.studies.claims import (
     time_trend,
     verdict,
 )
-from apnc.studies.contenders import ALL, PHASE_RESET, TEGOTAE
 from apnc.studies.plots import convergence
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import Row, successes, values
+from apnc.studies.results import Result, successes, values
 from apnc.studies.statistics import compare_rates, compare_spread, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others
 from apnc_plant.ground import Obstacles
@@ -40,13 +40,13 @@ def experiment(seed: int, roughness: float, **fields: Any) -> Experiment:
     return Experiment(seed=seed, ground=ground, mi=WALK_MI, duration=WALK_S, **fields)
 
 
-def spread_grows(rows: Sequence[Row], column: str) -> Finding:
-    """The time scatters significantly more above R = 0.5 than up to it, in every method."""
-    smooth = [row for row in rows if row["roughness"] <= 0.5]
-    rough = [row for row in rows if row["roughness"] > 0.5]
+def spread_grows(results: Sequence[Result], column: str) -> Finding:
+    """The time scatters significantly more above R = 0.5 than up to it, in every controller."""
+    smooth = [result for result in results if result["roughness"] <= 0.5]
+    rough = [result for result in results if result["roughness"] > 0.5]
 
-    def of(method: str) -> Finding:
-        a, b = (values(part, column, method=method) for part in (smooth, rough))
+    def of(controller: str) -> Finding:
+        a, b = (values(part, column, controller=controller) for part in (smooth, rough))
         if min(len(a), len(b)) < MIN_SEEDS:
             return Finding(f"too few, n = {len(a)} and {len(b)}", FEW)
         test = compare_spread(a, b)
@@ -56,17 +56,19 @@ def spread_grows(rows: Sequence[Row], column: str) -> Finding:
     return each_of(ALL, of)
 
 
-def fails_above(rows: Sequence[Row], column: str) -> Finding:
+def fails_above(results: Sequence[Result], column: str) -> Finding:
     """Up to R = 0.8 every trial of Tegotae forms the gait, above not every one, at each setting.
 
     Significantly fewer above than up to it is 'partly'. One that does not form it below either
     says nothing of the roughness: no verdict.
     """
-    low = [row for row in rows if row["roughness"] <= 0.8]
-    high = [row for row in rows if row["roughness"] > 0.8]
+    low = [result for result in results if result["roughness"] <= 0.8]
+    high = [result for result in results if result["roughness"] > 0.8]
 
-    def of(method: str) -> Finding:
-        below, above = (rate(successes(part, column, method=method)) for part in (low, high))
+    def of(controller: str) -> Finding:
+        below, above = (
+            rate(successes(part, column, controller=controller)) for part in (low, high)
+        )
         test = compare_rates(below, above)
         text = f"{below} up to R = 0.8, {above} above, {p_text(test.p)}"
         if below.successes < MIN_SEEDS or above.trials < MIN_SEEDS:
@@ -97,5 +99,5 @@ STUDY: Final = Study(
     {"roughness": ROUGHNESS},
     seeds=fewer_of_others(roughness=OTHERS_ROUGHNESS),
     claims=CLAIMS,
-    figures=lambda rows: convergence(rows, ("roughness", "roughness R [1]")),
+    figures=lambda results: convergence(results, ("roughness", "roughness R [1]")),
 )

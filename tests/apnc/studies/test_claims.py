@@ -1,4 +1,4 @@
-"""Every rule on rows that must give each verdict."""
+"""Every rule on results that must give each verdict."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import pytest
-from made_up_rows import Row, made_up
+from made_up_results import Result, made_up
 from scipy import stats
 
+from apnc.controllers import BASELINES, named_controller
 from apnc.studies import (
     conditions,
     damage,
@@ -33,29 +34,28 @@ from apnc.studies.claims import (
     findings,
     of_all,
     of_criteria,
-    of_told,
+    of_decided,
     trend,
 )
-from apnc.studies.contenders import RIVALS, contender
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import AUTHORS, STRICT, values
+from apnc.studies.results import AUTHORS, STRICT, values
 
-Number = Callable[[Row], float | None]
+Number = Callable[[Result], float | None]
 MIS = (0.04, 0.12, 0.2, 0.24, 0.28)
 RATES = (5.0, 15.0, 25.0, 30.0, 60.0)
 ROUGH = (0.0, 0.3, 0.5, 0.8, 0.9, 1.0)
 
 
 def of_label(by_label: Mapping[str, Any], label: str) -> Any:
-    """What is given for a label, or for its method: both settings of a baseline are alike."""
-    return by_label[label] if label in by_label else by_label[contender(label).method]
+    """What is given for a label, or for its controller: both settings of a baseline are alike."""
+    return by_label[label] if label in by_label else by_label[named_controller(label).method]
 
 
-def when(**by_label: Any) -> Callable[[Row], Row]:
+def when(**by_label: Any) -> Callable[[Result], Result]:
     """Strict and authors' times: a number, a function of the cell, or both of them in a tuple."""
 
-    def figures(cell: Row) -> Row:
-        given = of_label(by_label, cell["method"])
+    def figures(cell: Result) -> Result:
+        given = of_label(by_label, cell["controller"])
         strict, authors = given if isinstance(given, tuple) else (given, given)
         jitter = 0.01 * cell["seed"]
 
@@ -68,8 +68,8 @@ def when(**by_label: Any) -> Callable[[Row], Row]:
     return figures
 
 
-def verdict(claim: Claim, rows: Sequence[Row]) -> str:
-    return findings(rows, [claim])[0][1].verdict
+def verdict(claim: Claim, results: Sequence[Result]) -> str:
+    return findings(results, [claim])[0][1].verdict
 
 
 def claims_of(study: str) -> tuple[Claim, ...]:
@@ -84,7 +84,7 @@ def claim_of(study: str, text: str) -> Claim:
     return found
 
 
-def never(cell: Row) -> None:
+def never(cell: Result) -> None:
     return None
 
 
@@ -93,52 +93,52 @@ def by(axis: str, limit: float, low: float | None, high: float | None) -> Number
     return lambda cell: high if cell[axis] > limit else low
 
 
-def seldom(cell: Row) -> float | None:
+def seldom(cell: Result) -> float | None:
     """Forms in two of three runs."""
     return None if cell["seed"] % 3 == 0 else 3.0
 
 
-def barely(cell: Row) -> float | None:
+def barely(cell: Result) -> float | None:
     """Fails in one run up to R = 0.8 and in two above."""
     return None if (cell["roughness"], cell["seed"]) in ((0.0, 1), (0.9, 0), (1.0, 0)) else 3.0
 
 
-def over_mi(**times: Any) -> list[Row]:
+def over_mi(**times: Any) -> list[Result]:
     return made_up({"mi": MIS}, when(**times))
 
 
-def over_rate(**times: Any) -> list[Row]:
+def over_rate(**times: Any) -> list[Result]:
     return made_up({"rate": RATES}, when(**times), study="rate")
 
 
-def over_r(**times: Any) -> list[Row]:
+def over_r(**times: Any) -> list[Result]:
     return made_up({"roughness": ROUGH}, when(**times), study="terrain")
 
 
-def duty(low: float | None, high: float) -> list[Row]:
-    def figures(cell: Row) -> Row:
+def duty(low: float | None, high: float) -> list[Result]:
+    def figures(cell: Result) -> Result:
         return {mi.DUTY: None if low is None else low + (high - low) * cell["mi"] / 0.28}
 
     return made_up({"mi": MIS}, figures)
 
 
-def stride(slope: float, offset: float) -> list[Row]:
+def stride(slope: float, offset: float) -> list[Result]:
     return made_up({"mi": MIS}, lambda c: {"stride_frequency_hz": slope * c["mi"] + offset})
 
 
-def speed_over_rate(slope: float | None) -> list[Row]:
-    def figures(cell: Row) -> Row:
+def speed_over_rate(slope: float | None) -> list[Result]:
+    def figures(cell: Result) -> Result:
         speed = None if slope is None else 0.1 + slope * cell["rate"] + 1e-6 * cell["seed"]
         return {"late_speed_m_per_s": speed}
 
     return made_up({"rate": RATES}, figures, study="rate")
 
 
-def scatter(smooth: Mapping[str, float], rough: Mapping[str, float | None]) -> list[Row]:
+def scatter(smooth: Mapping[str, float], rough: Mapping[str, float | None]) -> list[Result]:
     """Times around 10 s, as wide as given up to R = 0.5 and above."""
 
-    def figures(cell: Row) -> Row:
-        wide = of_label(rough if cell["roughness"] > 0.5 else smooth, cell["method"])
+    def figures(cell: Result) -> Result:
+        wide = of_label(rough if cell["roughness"] > 0.5 else smooth, cell["controller"])
         # more than two places, or the distance to the median would be the same in every run
         time = None if wide is None else 10.0 + wide * (cell["seed"] - 2.5)
         return {STRICT: time, AUTHORS: time}
@@ -146,12 +146,12 @@ def scatter(smooth: Mapping[str, float], rough: Mapping[str, float | None]) -> l
     return made_up({"roughness": ROUGH}, figures, study="terrain")
 
 
-def metrics(**edge: float) -> list[Row]:
+def metrics(**edge: float) -> list[Result]:
     """APNC is better by ``edge`` in a condition: steadier, better coordinated, cheaper."""
 
-    def figures(cell: Row) -> Row:
-        better = edge.get(cell["condition"], 0.0) if cell["method"] == "apnc" else 0.0
-        noise = 0.01 * ((cell["seed"] * 7 + len(cell["method"])) % 10)
+    def figures(cell: Result) -> Result:
+        better = edge.get(cell["condition"], 0.0) if cell["controller"] == "apnc" else 0.0
+        noise = 0.01 * ((cell["seed"] * 7 + len(cell["controller"])) % 10)
         return {
             "balance": 10.0 + noise + better,
             "coordination": 5.0 + noise + better,
@@ -162,106 +162,108 @@ def metrics(**edge: float) -> list[Row]:
     return made_up(cells, figures, seeds=10, study="conditions")
 
 
-def worse_balance(condition: str) -> list[Row]:
-    rows = metrics(**{condition: 1.0})
-    return [r | {"balance": r["balance"] - 2.0 * (r["method"] == "apnc")} for r in rows]
+def worse_balance(condition: str) -> list[Result]:
+    results = metrics(**{condition: 1.0})
+    return [r | {"balance": r["balance"] - 2.0 * (r["controller"] == "apnc")} for r in results]
 
 
-def without(rows: Sequence[Row], left: int, *columns: str, method: str = "tegotae") -> list[Row]:
-    """Rows in which a method has these columns in the first few runs only."""
+def without(
+    results: Sequence[Result], left: int, *columns: str, controller: str = "tegotae"
+) -> list[Result]:
+    """Results in which a controller has these columns in the first few runs only."""
     return [
-        r | (dict.fromkeys(columns) if r["method"] == method and r["seed"] >= left else {})
-        for r in rows
+        r | (dict.fromkeys(columns) if r["controller"] == controller and r["seed"] >= left else {})
+        for r in results
     ]
 
 
-def standing(left: int) -> list[Row]:
+def standing(left: int) -> list[Result]:
     """Every baseline has its metrics in the first few of ten runs only."""
-    rows = metrics(C1=1.0, C2=1.0, C3=1.0, C4=1.0)
-    for label in RIVALS:
-        rows = without(rows, left, *conditions.METRICS, method=label)
-    return rows
+    results = metrics(C1=1.0, C2=1.0, C3=1.0, C4=1.0)
+    for label in BASELINES:
+        results = without(results, left, *conditions.METRICS, controller=label)
+    return results
 
 
-def speeds(**by_label: float | None) -> list[Row]:
-    def figures(cell: Row) -> Row:
-        speed = of_label(by_label, cell["method"])
+def speeds(**by_label: float | None) -> list[Result]:
+    def figures(cell: Result) -> Result:
+        speed = of_label(by_label, cell["controller"])
         return {"path_speed_m_per_s": None if speed is None else speed + 1e-4 * cell["seed"]}
 
     return made_up({"condition": ("C3",)}, figures, study="damage")
 
 
-def in_states(name: str, method: str, hits: int) -> list[Row]:
-    """So many of ten runs of a method went as the paper says, all of the other did or none."""
+def in_states(name: str, controller: str, hits: int) -> list[Result]:
+    """So many of ten runs of a controller went as the paper says, all of the other did or none."""
 
-    def figures(cell: Row) -> Row:
-        good = cell["seed"] < hits if cell["method"] == method else hits == 0
+    def figures(cell: Result) -> Result:
+        good = cell["seed"] < hits if cell["controller"] == controller else hits == 0
         others = {f"state_{s}": hits == 0 for s in ("S1", "S2", "S3")}
         return others | {f"state_{name}": good}
 
-    return made_up({}, figures, methods=("apnc", "apc"), seeds=10, study="states")
+    return made_up({}, figures, controllers=("apnc", "apc"), seeds=10, study="states")
 
 
-def kept(name: str, *, formed: int = 10, **hits: int) -> list[Row]:
+def kept(name: str, *, formed: int = 10, **hits: int) -> list[Result]:
     """So many of ten runs of the baselines form the trot, and so many trot in a state."""
 
-    def figures(cell: Row) -> Row:
+    def figures(cell: Result) -> Result:
         return {
             "state_S1": cell["seed"] < formed,
-            f"state_{name}": cell["seed"] < of_label(hits, cell["method"]),
+            f"state_{name}": cell["seed"] < of_label(hits, cell["controller"]),
         }
 
-    return made_up({}, figures, methods=RIVALS, seeds=10, study="states")
+    return made_up({}, figures, controllers=BASELINES, seeds=10, study="states")
 
 
-def gammas(ratio: float | None) -> list[Row]:
+def gammas(ratio: float | None) -> list[Result]:
     """Gamma falls to this part of it with all feedback kept, and to a fifth where it is imposed."""
 
-    def figures(cell: Row) -> Row:
-        part = 0.2 if cell["method"] == "apnc" else ratio
+    def figures(cell: Result) -> Result:
+        part = 0.2 if cell["controller"] == "apnc" else ratio
         after = None if part is None else part * 0.3
         return dict(zip(states.GAMMA, (0.3, after), strict=True))
 
-    return made_up({}, figures, methods=("apnc", "apnc_kept"), study="states")
+    return made_up({}, figures, controllers=("apnc", "apnc_kept"), study="states")
 
 
-def sections(column: str, *means: float | None) -> list[Row]:
-    def figures(cell: Row) -> Row:
+def sections(column: str, *means: float | None) -> list[Result]:
+    def figures(cell: Result) -> Result:
         wobble = 1e-3 * cell["seed"]
         return {
             f"{column}_section_{i}": None if mean is None else mean + wobble
             for i, mean in enumerate(means, start=1)
         }
 
-    course = "speeds" if column == "speed" else "turns"
-    return made_up({"course": (course,)}, figures, methods=("apnc",), study="steering")
+    schedule = "speeds" if column == "speed" else "turns"
+    return made_up({"schedule": (schedule,)}, figures, controllers=("apnc",), study="steering")
 
 
-def on_slopes(*means: float | None) -> list[Row]:
-    def figures(cell: Row) -> Row:
-        mean = means[list(steering.SLOPES).index(cell["course"])]
+def on_slopes(*means: float | None) -> list[Result]:
+    def figures(cell: Result) -> Result:
+        mean = means[list(steering.SLOPES).index(cell["schedule"])]
         return {"speed_section_1": None if mean is None else mean + 1e-4 * cell["seed"]}
 
-    cells = {"course": tuple(steering.SLOPES)}
-    return made_up(cells, figures, methods=("apnc",), study="steering")
+    cells = {"schedule": tuple(steering.SLOPES)}
+    return made_up(cells, figures, controllers=("apnc",), study="steering")
 
 
 def over_gain(
     weak: Any = 20.0, good: Any = 2.0, strong: Any = 5.0, stopped: Any = (0, 0, 4)
-) -> list[Row]:
+) -> list[Result]:
     """Times and stopped oscillators at a weak gain, at the best or the robot's own and a strong."""
 
-    def figures(cell: Row) -> Row:
+    def figures(cell: Result) -> Result:
         at = (0.01, 1.0, 4.0).index(cell["gain"])
         number = stopped[at]
-        time = when(apnc=(weak, good, strong)[at])({**cell, "method": "apnc"})
+        time = when(apnc=(weak, good, strong)[at])({**cell, "controller": "apnc"})
         return time | {
             "late_speed_m_per_s": 0.0 if time[STRICT] is None else 0.1,
             gains.STILL: number(cell) if callable(number) else number,
         }
 
     cells = {"mi": (0.08,), "gain": (0.01, 1.0, 4.0)}
-    return made_up(cells, figures, methods=("tegotae", "apnc"), study="gains")
+    return made_up(cells, figures, controllers=("tegotae", "apnc"), study="gains")
 
 
 FAST = {"apnc": 2.0, "tegotae": 9.0, "phase_reset": 1.0}
@@ -271,7 +273,7 @@ LATER = dict.fromkeys(ALIKE, lambda c: 20.0 - c.get("rate", 0) / 10)
 ROUGHER = dict.fromkeys(ALIKE, lambda c: 3.0 + c["roughness"])
 ONLY_ABOVE = by("rate", 25.0, None, 3.0)
 
-CASES: list[tuple[str, str, list[Row], str]] = [
+CASES: list[tuple[str, str, list[Result], str]] = [
     ("mi", "the gait forms rapidly", over_mi(**FAST), YES),
     ("mi", "the gait forms rapidly", over_mi(**FAST | {"apnc": by("mi", 0.04, None, 2.0)}), PARTLY),
     ("mi", "the gait forms rapidly", over_mi(**FAST | {"apnc": (2.0, 9.1)}), PARTLY),
@@ -455,7 +457,7 @@ CASES: list[tuple[str, str, list[Row], str]] = [
     ("gains", "too strong an inhibition",
      over_gain(stopped=(0, 0, lambda c: int(c["seed"] < 2))), PARTLY),
     ("gains", "too strong an inhibition",
-     over_gain(stopped=(0, 0, lambda c: 4 if c["method"] == "apnc" else 0)), PARTLY),
+     over_gain(stopped=(0, 0, lambda c: 4 if c["controller"] == "apnc" else 0)), PARTLY),
     ("gains", "too strong an inhibition", over_gain(stopped=(0, 0, 0)), NO),
     ("gains", "too strong an inhibition", over_gain(stopped=(0, 1, 4)), NO),
     ("gains", "too strong an inhibition", over_gain(stopped=(None, None, None)), FEW),
@@ -477,7 +479,7 @@ for _text, _state, _method in (
         CASES.append(("states", _text, in_states(_state, _method, _hits), _verdict))
 
 NEVER_PARTLY = ("the duty factor grows", "a higher update rate walks")
-"""What is said of one method by one criterion, and holds or does not."""
+"""What is said of one controller by one criterion, and holds or does not."""
 
 ALWAYS_TOLD = (
     "the gait forms rapidly", "APNC succeeds in every trial", "APNC forms the gait",
@@ -487,10 +489,10 @@ ALWAYS_TOLD = (
 
 
 @pytest.mark.parametrize(
-    ("study", "text", "rows", "expected"), CASES, ids=[f"{c[0]}-{c[1]}-{c[3]}" for c in CASES]
+    ("study", "text", "results", "expected"), CASES, ids=[f"{c[0]}-{c[1]}-{c[3]}" for c in CASES]
 )
-def test_verdict(study: str, text: str, rows: list[Row], expected: str) -> None:
-    assert verdict(claim_of(study, text), rows) == expected
+def test_verdict(study: str, text: str, results: list[Result], expected: str) -> None:
+    assert verdict(claim_of(study, text), results) == expected
 
 
 # what the robot is built for is in test_gait
@@ -505,24 +507,28 @@ def test_every_claim_has_a_case_for_each_of_its_verdicts(name: str) -> None:
 
 
 def test_every_experiment_of_the_paper_has_claims() -> None:
-    assert all(claims_of(name) for name, entry in STUDIES.items() if entry.place)
+    assert all(claims_of(name) for name, entry in STUDIES.items() if entry.section)
 
 
-@pytest.mark.parametrize("name", [name for name, entry in STUDIES.items() if entry.place])
+@pytest.mark.parametrize("name", [name for name, entry in STUDIES.items() if entry.section])
 def test_few_seeds_and_methods_that_were_not_run_give_no_verdict(name: str) -> None:
     for claim in claims_of(name):
-        rows = next(c[2] for c in CASES if c[0] == name and claim.text.startswith(c[1]))
-        for method in claim.methods:
-            missing = [row for row in rows if row["method"] != method]
-            assert findings(missing, [claim])[0][1] == (f"not run: {method}", NOT_RUN)
-            few = [row for row in rows if row["method"] != method or row["seed"] < claim.seeds - 1]
+        results = next(c[2] for c in CASES if c[0] == name and claim.text.startswith(c[1]))
+        for controller in claim.controllers:
+            missing = [result for result in results if result["controller"] != controller]
+            assert findings(missing, [claim])[0][1] == (f"not run: {controller}", NOT_RUN)
+            few = [
+                result
+                for result in results
+                if result["controller"] != controller or result["seed"] < claim.seeds - 1
+            ]
             if claim.seeds > 1:
                 assert findings(few, [claim])[0][1] == (claim.rule(few).measured, FEW)
 
 
 def test_five_seeds_are_enough() -> None:
-    rows = [row for row in over_mi(**FAST) if row["seed"] < 5]
-    assert verdict(claim_of("mi", "the gait forms"), rows) == YES
+    results = [result for result in over_mi(**FAST) if result["seed"] < 5]
+    assert verdict(claim_of("mi", "the gait forms"), results) == YES
 
 
 @pytest.mark.parametrize(
@@ -540,7 +546,7 @@ def test_five_seeds_are_enough() -> None:
     ],
 )
 def test_verdicts_on_several(verdicts: tuple[str, ...], all_of_them: str, those_told: str) -> None:
-    assert (of_all(verdicts), of_told(verdicts)) == (all_of_them, those_told)
+    assert (of_all(verdicts), of_decided(verdicts)) == (all_of_them, those_told)
 
 
 @pytest.mark.parametrize(
@@ -556,24 +562,24 @@ def test_a_difference_between_the_criteria_is_partly(strict: str, authors: str, 
     assert of_criteria(strict, authors) == both
 
 
-def measured(rule: Callable[[Sequence[Row]], Any], rows: Sequence[Row]) -> str:
-    return rule(rows).measured
+def measured(rule: Callable[[Sequence[Result]], Any], results: Sequence[Result]) -> str:
+    return rule(results).measured
 
 
 def test_the_figures_are_told() -> None:
-    rows = over_mi(apnc=(2.0, 1.0), tegotae=(9.0, 8.0), phase_reset=never)
-    assert measured(mi.within(9.0), rows) == (
+    results = over_mi(apnc=(2.0, 1.0), tegotae=(9.0, 8.0), phase_reset=never)
+    assert measured(mi.within(9.0), results) == (
         "strict: 2.0 (2.0 ... 2.0) s, success 30/30 (88 ... 100 %); "
         "authors': 1.0 (1.0 ... 1.0) s, success 30/30 (88 ... 100 %)"
     )
-    text = measured(faster([("apnc", "tegotae")], "mi"), rows)
+    text = measured(faster([("apnc", "tegotae")], "mi"), results)
     assert re.fullmatch(
         r"strict: APNC 2\.0 \(2\.0 \.\.\. 2\.0\) s, n = 30 against Tegotae "
         r"9\.0 \(9\.0 \.\.\. 9\.0\) s, n = 30, faster in 5 of 5 cells, p < 0\.001, "
         r"r = -1\.00; authors': APNC 1\.0 \(1\.0 \.\.\. 1\.0\) s, n = 30 against .*",
         text,
     )
-    text = measured(faster([("apnc", "phase_reset"), ("apnc", "phase_reset_best")], "mi"), rows)
+    text = measured(faster([("apnc", "phase_reset"), ("apnc", "phase_reset_best")], "mi"), results)
     assert text.count("against phase resetting -, n = 0 of 30, faster in 5 of 5") == 2
     assert text.count("against phase resetting (best) -, n = 0 of 30, faster in 5 of 5") == 2
     assert measured(mi.duty_at_high_mi, duty(0.5, 0.72)) == "0.70 (0.69 ... 0.72), n = 12"
@@ -584,11 +590,11 @@ def test_the_figures_are_told() -> None:
     assert measured(mi.stride_line, stride(8.6 * 0.84, 0.5 * 0.84)).endswith(
         "16 % off the paper's line"
     )
-    others = [r | {"mi": 0.28, mi.DUTY: 9.0, "method": "tegotae"} for r in duty(0.5, 0.6)]
+    others = [r | {"mi": 0.28, mi.DUTY: 9.0, "controller": "tegotae"} for r in duty(0.5, 0.6)]
     text = measured(mi.duty_at_high_mi, [*duty(0.6, 0.6), *others])
     assert text == "0.60 (0.60 ... 0.60), n = 12"
-    others = [r | {"stride_frequency_hz": 9.0, "method": "tegotae"} for r in stride(8.6, 0.5)]
-    apnc = [r for r in stride(8.6, 0.5) if r["method"] == "apnc" and r["mi"] in MIS[:3]]
+    others = [r | {"stride_frequency_hz": 9.0, "controller": "tegotae"} for r in stride(8.6, 0.5)]
+    apnc = [r for r in stride(8.6, 0.5) if r["controller"] == "apnc" and r["mi"] in MIS[:3]]
     assert measured(mi.stride_line, [*apnc, *others]).startswith("S_f = 8.6 MI + 0.50;")
     assert measured(mi.stride_line, [r for r in apnc if r["mi"] in MIS[:2]]) == "too few"
     assert measured(always("apnc"), over_rate(**ALIKE | {"apnc": (never, 5.0)})) == (
@@ -603,27 +609,27 @@ def test_the_figures_are_told() -> None:
     )
     text = measured(trend(STRICT, "rate", -1, ("apc", "apnc")), over_rate(**LATER))
     assert text.startswith("APC alone: too few, n = 0; APNC: rho = -0.98 (p < 0.001)")
-    rows = [r | {STRICT: None} if r["seed"] else r for r in over_rate(**LATER)]
-    text = measured(trend(STRICT, "rate", -1, ("apnc",)), rows)
+    results = [r | {STRICT: None} if r["seed"] else r for r in over_rate(**LATER)]
+    text = measured(trend(STRICT, "rate", -1, ("apnc",)), results)
     assert text.endswith(", n = 5 of 30") and "rho = -1.00" in text
 
 
 def test_cells_that_only_one_walked_are_no_contest() -> None:
     """A baseline walks at fewer values than APNC."""
-    rows = [r for r in over_mi(**FAST) if r["method"] == "apnc" or r["mi"] == 0.2]
-    text = measured(faster([("apnc", "tegotae")], "mi"), rows)
+    results = [r for r in over_mi(**FAST) if r["controller"] == "apnc" or r["mi"] == 0.2]
+    text = measured(faster([("apnc", "tegotae")], "mi"), results)
     assert "APNC 2.0 (2.0 ... 2.0) s, n = 6 against" in text and "in 1 of 1 cells" in text
 
 
 def test_the_figures_of_terrain_are_told() -> None:
-    rows = without(scatter(dict.fromkeys(ALIKE, 1.0), dict.fromkeys(ALIKE, 2.0)), 0, STRICT)
-    text = terrain.spread_grows(rows, STRICT).measured
+    results = without(scatter(dict.fromkeys(ALIKE, 1.0), dict.fromkeys(ALIKE, 2.0)), 0, STRICT)
+    text = terrain.spread_grows(results, STRICT).measured
     assert re.match(
         r"APNC: 1\.7 s up to R = 0\.5, 3\.4 s above, p = 0\.0018; "
         r"Tegotae: too few, n = 0 and 0; Tegotae \(best\): 1\.7 s",
         text,
     )
-    level = [row for row in rows if row["roughness"] <= 0.5]
+    level = [result for result in results if result["roughness"] <= 0.5]
     assert terrain.spread_grows(level, STRICT).measured.count("too few") == 5
     text = terrain.fails_above(over_r(**ALIKE | {"tegotae": (never, 5.0)}), STRICT).measured
     assert text.startswith(
@@ -641,42 +647,42 @@ def test_the_figures_of_conditions_are_told() -> None:
     assert text.startswith("balance against Tegotae: too few, n = 10 and 4 of 10; ")
     text = measured(conditions.alike_in("C1"), metrics(C1=1.0))
     assert [part.split(":")[0] for part in text.split("; ")] == [
-        f"{metric} against {contender(label).name}"
+        f"{metric} against {named_controller(label).name}"
         for metric in ("balance", "coordination", "cost_of_transport")
-        for label in RIVALS
+        for label in BASELINES
     ]
 
 
 def test_the_other_figures_are_told() -> None:
-    rows = speeds(apnc=0.3, tegotae=0.2, phase_reset=None)
+    results = speeds(apnc=0.3, tegotae=0.2, phase_reset=None)
     assert re.fullmatch(
         r"APNC: 0\.300 \(.*\) m/s, n = 6; Tegotae: 0\.200 \(.*\) m/s, n = 6, "
         r"p = 0\.0043; Tegotae \(best\): .*; phase resetting: -, n = 0 of 6; "
         r"phase resetting \(best\): -, n = 0 of 6",
-        measured(damage.fastest, rows),
+        measured(damage.fastest, results),
     )
-    rows = [
-        row | {"state_speed_s1": 0.1, "state_formation_time_s": 1.8 if row["seed"] else None}
-        for row in in_states("S1", "apnc", 10)
+    results = [
+        result | {"state_speed_s1": 0.1, "state_formation_time_s": 1.8 if result["seed"] else None}
+        for result in in_states("S1", "apnc", 10)
     ]
-    assert measured(states.state("S1", "apnc", states.FORMED), rows) == (
+    assert measured(states.state("S1", "apnc", states.FORMED), results) == (
         "10/10 (69 ... 100 %), speed 0.100 (0.100 ... 0.100) m/s, n = 10, "
         "formed after 1.8 (1.8 ... 1.8) s, n = 9 of 10"
     )
-    assert measured(states.state("S3", "apc"), rows) == "0/10 (0 ... 31 %), speed -, n = 0 of 10"
+    assert measured(states.state("S3", "apc"), results) == "0/10 (0 ... 31 %), speed -, n = 0 of 10"
     text = measured(states.without_gait("S2"), kept("S2", formed=8, tegotae=2, phase_reset=0))
     assert text.startswith("Tegotae: gait in 2/8 (3 ... 65 %), speed -, n = 0 of 8; ")
     assert measured(states.gamma_by_itself, gammas(0.95)) == (
         "imposed in APNC by feedback_kept; APNC: 0.300 to 0.060, n = 6; "
         "APNC, feedback kept: 0.300 to 0.285, n = 6, ratio 0.95 (0.95 ... 0.95)"
     )
-    rows = [r for r in sections("speed", 0.08, 0.16, 0.08) if r["seed"] == 0]
-    assert measured(steering.speed_steps, rows) == (
+    results = [r for r in sections("speed", 0.08, 0.16, 0.08) if r["seed"] == 0]
+    assert measured(steering.speed_steps, results) == (
         "0.080 (0.080 ... 0.080) m/s, n = 1, 0.160 (0.160 ... 0.160) m/s, n = 1, "
         "0.080 (0.080 ... 0.080) m/s, n = 1"
     )
-    rows = [r for r in sections("yaw_rate", 0.0, -0.2, 0.2) if r["seed"] == 0]
-    assert measured(steering.turns, rows) == (
+    results = [r for r in sections("yaw_rate", 0.0, -0.2, 0.2) if r["seed"] == 0]
+    assert measured(steering.turns, results) == (
         "right -0.20 (-0.20 ... -0.20) rad/s, n = 1, left 0.20 (0.20 ... 0.20) rad/s, n = 1"
     )
     text = measured(steering.slopes_speed, on_slopes(0.06, 0.08, 0.1, 0.12, 0.14))
@@ -691,21 +697,26 @@ def test_the_other_figures_are_told() -> None:
 
 def test_holm_corrects_over_all_tests_of_all_metrics() -> None:
     """Among 48 tests the least p counts 48 times, and 40 if eight cannot be made."""
-    rows = [
-        row | ({"balance": 13.0} if row["method"] == "apnc" and row["condition"] == "C1" else {})
-        for row in metrics()
+    results = [
+        result
+        | (
+            {"balance": 13.0}
+            if result["controller"] == "apnc" and result["condition"] == "C1"
+            else {}
+        )
+        for result in metrics()
     ]
-    for known, count in ((rows, 48), (without(rows, 4, "balance", "coordination"), 40)):
+    for known, count in ((results, 48), (without(results, 4, "balance", "coordination"), 40)):
         tests = conditions.comparisons(known)
         assert len(tests) == 48
         p, least = min((test.test.p, test) for test in tests if test.test is not None)
         own, other = (
-            values(rows, least.metric, method=method, condition=least.condition)
-            for method in ("apnc", least.method)
+            values(results, least.metric, controller=controller, condition=least.condition)
+            for controller in ("apnc", least.controller)
         )
         assert p == pytest.approx(count * stats.mannwhitneyu(own, other).pvalue)
 
 
 def test_a_robot_that_fell_has_not_succeeded() -> None:
-    rows = [row | {"fell": row["seed"] == 0} for row in over_rate(**ALIKE)]
-    assert verdict(claim_of("rate", "APNC succeeds"), rows) == NO
+    results = [result | {"fell": result["seed"] == 0} for result in over_rate(**ALIKE)]
+    assert verdict(claim_of("rate", "APNC succeeds"), results) == NO

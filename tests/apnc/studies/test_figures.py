@@ -1,29 +1,29 @@
-"""Traces of every figure, and the Markdown tables, on made-up rows."""
+"""Traces of every figure, and the Markdown tables, on made-up results."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import pytest
-from made_up_rows import Row, made_up
+from made_up_results import Result, made_up
 
+from apnc.controllers import CONTROLLERS
 from apnc.report.figure import Figure
 from apnc.studies import conditions, gains, mi, states, steering
-from apnc.studies.contenders import CONTENDERS
-from apnc.studies.plots import convergence, over_axis, side_by_side, spread
+from apnc.studies.plots import LOOKS, convergence, over_axis, side_by_side, spread
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import AUTHORS, STRICT, methods_in
+from apnc.studies.results import AUTHORS, STRICT, controllers_in
 from apnc.studies.study import load
 
 AXIS = ("mi", "MI [1]")
 OLD = ("apnc", "tegotae", "phase_reset")
 
 
-def times(cell: Row) -> Row:
+def times(cell: Result) -> Result:
     """APNC forms at every MI, Tegotae at the higher one only, phase resetting in two trials."""
     at = {"apnc": 2.0, "tegotae": 9.0 if cell["mi"] > 0.1 else None}
     late = 5.0 if cell["mi"] < 0.1 and cell["seed"] < 2 else None
-    time = at.get(cell["method"], late)
+    time = at.get(cell["controller"], late)
     return {STRICT: time, AUTHORS: 1.0, "path_speed_m_per_s": 0.1 + cell["mi"]}
 
 
@@ -56,16 +56,16 @@ def test_convergence_shows_times_and_the_share_of_success() -> None:
 
 
 def test_a_cell_that_was_not_run_has_no_share() -> None:
-    rows = made_up({"mi": (0.08, 0.2)}, times, OLD)
-    part = [r for r in rows if r["method"] != "apnc" or r["mi"] == 0.2]
+    results = made_up({"mi": (0.08, 0.2)}, times, OLD)
+    part = [r for r in results if r["controller"] != "apnc" or r["mi"] == 0.2]
     (share,) = of_kind(convergence(part, AXIS)[0], "scatter", "APNC: success")
     assert share["y"] == [None, 100.0]
 
 
 def test_fewer_than_five_values_are_points() -> None:
-    rows = made_up({"mi": (0.08, 0.2)}, times, OLD, seeds=4)
-    assert not [t for t in convergence(rows, AXIS)[0].data if t["type"] == "box"]
-    (points,) = of_kind(convergence(rows, AXIS)[0], "scatter", "APNC")
+    results = made_up({"mi": (0.08, 0.2)}, times, OLD, seeds=4)
+    assert not [t for t in convergence(results, AXIS)[0].data if t["type"] == "box"]
+    (points,) = of_kind(convergence(results, AXIS)[0], "scatter", "APNC")
     assert points["mode"] == "markers" and points["y"] == [2.0] * 8
     mixed = spread([("a", 1.0)] * 5 + [("b", 2.0)] * 4, "n", "#000000")
     assert [(t["type"], t["x"], t["showlegend"]) for t in mixed] == [
@@ -75,14 +75,16 @@ def test_fewer_than_five_values_are_points() -> None:
     assert spread([], "n", "#000000") == []
 
 
-def test_every_contender_has_a_look_of_its_own() -> None:
-    for part in ("name", "colour", "symbol"):
-        assert len({getattr(each, part) for each in CONTENDERS.values()}) == len(CONTENDERS)
+def test_every_controller_has_a_look_of_its_own() -> None:
+    assert LOOKS.keys() == CONTROLLERS.keys()
+    for part in ("colour", "symbol"):
+        assert len({getattr(each, part) for each in LOOKS.values()}) == len(LOOKS)
+    assert len({each.name for each in CONTROLLERS.values()}) == len(CONTROLLERS)
 
 
-def test_an_unknown_method_is_an_error() -> None:
-    with pytest.raises(ValueError, match="method 'moo' is not one of apnc, apc, tegotae"):
-        methods_in([{"method": "moo"}])
+def test_an_unknown_controller_is_an_error() -> None:
+    with pytest.raises(ValueError, match="controller 'moo' is not one of apnc, apc, tegotae"):
+        controllers_in([{"controller": "moo"}])
 
 
 def test_names_tell_how_many_of_the_runs_have_the_figure() -> None:
@@ -117,12 +119,12 @@ def test_side_by_side_keeps_the_order() -> None:
 
 
 def test_the_studies_of_the_paper_have_their_figures() -> None:
-    def keys(name: str, rows: list[Row]) -> list[str]:
-        return [figure.key for figure in load(STUDIES[name]).figures(rows)]
+    def keys(name: str, results: list[Result]) -> list[str]:
+        return [figure.key for figure in load(STUDIES[name]).figures(results)]
 
-    rows = made_up({"mi": (0.08, 0.2)}, times, OLD)
+    results = made_up({"mi": (0.08, 0.2)}, times, OLD)
     both = [STRICT, AUTHORS]
-    assert keys("mi", rows) == [f"mi-{c}" for c in [*both, mi.DUTY, "path_speed_m_per_s"]]
+    assert keys("mi", results) == [f"mi-{c}" for c in [*both, mi.DUTY, "path_speed_m_per_s"]]
     for name, axis in (("rate", "rate"), ("terrain", "roughness")):
         cells = made_up({axis: (5.0, 60.0)}, lambda cell: {STRICT: 3.0, AUTHORS: 2.0}, study=name)
         assert keys(name, cells) == [f"{name}-{c}" for c in both]
@@ -131,16 +133,16 @@ def test_the_studies_of_the_paper_have_their_figures() -> None:
 
 
 def test_conditions_name_what_differs() -> None:
-    def figures(cell: Row) -> Row:
-        better = 5.0 * (cell["method"] == "apnc" and cell["condition"] == "C2")
+    def figures(cell: Result) -> Result:
+        better = 5.0 * (cell["controller"] == "apnc" and cell["condition"] == "C2")
         return dict.fromkeys(conditions.METRICS, 0.1 * cell["seed"] + better)
 
-    rows = made_up({"condition": ("C1", "C2")}, figures, seeds=20, study="conditions")
-    for figure in load(STUDIES["conditions"]).figures(rows):
+    results = made_up({"condition": ("C1", "C2")}, figures, seeds=20, study="conditions")
+    for figure in load(STUDIES["conditions"]).figures(results):
         assert figure.note.startswith("APNC differs from: C2 Tegotae (p < 0.001")
         assert "C2 phase resetting (p < 0.001" in figure.note and "C1" not in figure.note
         assert "Holm" in figure.note
-    alike = load(STUDIES["conditions"]).figures([r for r in rows if r["condition"] == "C1"])
+    alike = load(STUDIES["conditions"]).figures([r for r in results if r["condition"] == "C1"])
     assert alike[0].note.startswith("APNC differs from: no baseline.")
     assert [f.layout["yaxis"]["title"]["text"] for f in alike] == [
         "balance [1/rad]",
@@ -151,9 +153,11 @@ def test_conditions_name_what_differs() -> None:
 
 def test_damage_shows_the_speed_of_every_method() -> None:
     speed = {"apnc": 0.1, "tegotae": 0.2, "phase_reset": 0.3}
-    rows = made_up({}, lambda c: {"path_speed_m_per_s": speed[c["method"]]}, OLD, study="damage")
-    rows[0]["path_speed_m_per_s"] = None
-    (figure,) = load(STUDIES["damage"]).figures(rows)
+    results = made_up(
+        {}, lambda c: {"path_speed_m_per_s": speed[c["controller"]]}, OLD, study="damage"
+    )
+    results[0]["path_speed_m_per_s"] = None
+    (figure,) = load(STUDIES["damage"]).figures(results)
     assert (figure.key, figure.title) == ("damage-speed", "Speed")
     assert figure.note == "Commands of leg RF held at 0."
     assert figure.layout["yaxis"]["title"]["text"] == "speed [m/s]"
@@ -164,18 +168,18 @@ def test_damage_shows_the_speed_of_every_method() -> None:
     ]
 
 
-def state_rows() -> list[Row]:
-    def figures(cell: Row) -> Row:
-        with_anc = cell["method"] == "apnc"
+def state_results() -> list[Result]:
+    def figures(cell: Result) -> Result:
+        with_anc = cell["controller"] == "apnc"
         speeds = {f"state_speed_s{i}": 0.1 * i + 0.01 * with_anc for i in (1, 2, 3)}
         good = {"state_S1": True, "state_S2": cell["seed"] > 1, "state_S3": with_anc}
         return speeds | good | {states.FORMED[0]: 1.5, states.BACK[0]: 1.0 + cell["seed"]}
 
-    return made_up({}, figures, methods=("apnc", "apc"), study="states")
+    return made_up({}, figures, controllers=("apnc", "apc"), study="states")
 
 
 def test_states_show_speeds_with_and_without_couplings() -> None:
-    (figure,) = states.STUDY.figures(state_rows())
+    (figure,) = states.STUDY.figures(state_results())
     assert [(t["name"], t["y"][0]) for t in figure.data] == [
         ("S1 with ANC", pytest.approx(0.11)),
         ("S1 without ANC", pytest.approx(0.1)),
@@ -187,7 +191,7 @@ def test_states_show_speeds_with_and_without_couplings() -> None:
 
 
 def test_the_table_of_states() -> None:
-    text = states.table(state_rows())
+    text = states.table(state_results())
     assert text.splitlines()[0] == (
         "| couplings | state | as the paper says | success (95 % interval) | "
         "time [s], median (range) | speed [m/s], median (range) |"
@@ -202,17 +206,19 @@ def test_the_table_of_states() -> None:
         "| without ANC | S3 | rocks in place, legs in phase | 0/6 (0 ... 46 %) | 3.5 (1.0" in text
     )
     assert len(text.splitlines()) == 2 + 6
-    only = states.table([row for row in state_rows() if row["method"] == "apc"])
+    only = states.table([result for result in state_results() if result["controller"] == "apc"])
     assert "with ANC | S1" not in only.replace("without ANC", "")
 
 
-def test_steering_shows_every_section() -> None:
-    def figures(cell: Row) -> Row:
-        column = "speed" if cell["course"] == "speeds" else "yaw_rate"
+def test_steering_shows_every_interval() -> None:
+    def figures(cell: Result) -> Result:
+        column = "speed" if cell["schedule"] == "speeds" else "yaw_rate"
         return {f"{column}_section_{i}": 0.1 * i for i in range(1, 5)}
 
-    rows = made_up({"course": ("speeds", "turns")}, figures, methods=("apnc",), study="steering")
-    speed, yaw = steering.STUDY.figures(rows)
+    results = made_up(
+        {"schedule": ("speeds", "turns")}, figures, controllers=("apnc",), study="steering"
+    )
+    speed, yaw = steering.STUDY.figures(results)
     assert (speed.key, yaw.key) == ("steering-speeds", "steering-turns")
     assert (speed.title, yaw.title) == ("Speed", "Yaw rate")
     assert yaw.note == "Positive turns left."
@@ -221,9 +227,9 @@ def test_steering_shows_every_section() -> None:
         "yaw rate [rad/s]",
     ]
     assert [(t["name"], t["y"][0]) for t in speed.data] == [
-        ("MI 0.15, section 1", pytest.approx(0.1)),
-        ("MI 0.4, section 2", pytest.approx(0.2)),
-        ("MI 0.15, section 3", pytest.approx(0.3)),
+        ("MI 0.15, interval 1", pytest.approx(0.1)),
+        ("MI 0.4, interval 2", pytest.approx(0.2)),
+        ("MI 0.15, interval 3", pytest.approx(0.3)),
     ]
     assert [(t["name"], t["y"][0]) for t in yaw.data] == [
         ("straight", pytest.approx(0.1)),
@@ -231,19 +237,26 @@ def test_steering_shows_every_section() -> None:
         ("left", pytest.approx(0.3)),
         ("straight again", pytest.approx(0.4)),
     ]
-    (only,) = steering.STUDY.figures([row for row in rows if row["course"] == "turns"])
+    (only,) = steering.STUDY.figures(
+        [result for result in results if result["schedule"] == "turns"]
+    )
     assert only.key == "steering-turns"
 
 
 def test_the_table_of_mi_counts_failures_and_errors() -> None:
-    rows = made_up({"mi": (0.1,)}, times, methods=("apnc",), seeds=4)
-    for row, time in zip(rows, (3.0, 5.0, None, None), strict=True):
-        row |= {STRICT: time, AUTHORS: 2.0, "late_speed_m_per_s": 0.1}
-    rows[2]["fell"] = True
-    for row, gait in zip(rows, ("pace", "trot", None, "trot"), strict=True):
-        row[mi.GAIT] = gait
-    del rows[3][STRICT], rows[3][AUTHORS], rows[3]["late_speed_m_per_s"], rows[3]["fell"]
-    assert mi.table(rows).splitlines()[2] == (
+    results = made_up({"mi": (0.1,)}, times, controllers=("apnc",), seeds=4)
+    for result, time in zip(results, (3.0, 5.0, None, None), strict=True):
+        result |= {STRICT: time, AUTHORS: 2.0, "late_speed_m_per_s": 0.1}
+    results[2]["fell"] = True
+    for result, gait in zip(results, ("pace", "trot", None, "trot"), strict=True):
+        result[mi.GAIT] = gait
+    del (
+        results[3][STRICT],
+        results[3][AUTHORS],
+        results[3]["late_speed_m_per_s"],
+        results[3]["fell"],
+    )
+    assert mi.table(results).splitlines()[2] == (
         "| APNC | 0.10 | 2/4 (7 ... 93 %) | 4.0 (3.5 ... 4.5; 5.0) | "
         "trot 2, pace 1 | 3/4 | 2.0 | 0.100 (0.100 ... 0.100) | 1 |"
     )
@@ -252,7 +265,7 @@ def test_the_table_of_mi_counts_failures_and_errors() -> None:
 def test_the_table_of_mi_has_a_line_per_method_and_mi() -> None:
     lines = mi.table(made_up({"mi": (0.2, 0.08)}, times, OLD)).splitlines()
     assert lines[:2] == [
-        "| method | MI | gait kept, strict (95 % interval) | "
+        "| controller | MI | gait kept, strict (95 % interval) | "
         "strict time [s], median (quartiles; longest) | gait at the end | authors' criterion | "
         "authors' time [s], median | speed [m/s], median (range) | fell |",
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
@@ -263,8 +276,8 @@ def test_the_table_of_mi_has_a_line_per_method_and_mi() -> None:
     assert len(lines) == 6
 
 
-def gain_rows() -> list[Row]:
-    def figures(cell: Row) -> Row:
+def gain_results() -> list[Result]:
+    def figures(cell: Result) -> Result:
         good = cell["gain"] == 1.0
         return {
             STRICT: 3.0 if good else None,
@@ -274,12 +287,12 @@ def gain_rows() -> list[Row]:
         }
 
     return made_up(
-        {"gain": (1.0, 2.0)}, figures, methods=tuple(gains.GAINS), seeds=5, study="gains"
+        {"gain": (1.0, 2.0)}, figures, controllers=tuple(gains.GAINS), seeds=5, study="gains"
     )
 
 
 def test_the_table_of_gains_marks_the_best() -> None:
-    lines = gains.table(gain_rows()).splitlines()
+    lines = gains.table(gain_results()).splitlines()
     assert len(lines) == 2 + 8
     assert lines[2].startswith(
         "| gain of Tegotae [1] | 1 | best | 5/5 | 5/5 (48 ... 100 %) | 5/5 (48 ... 100 %) | "
@@ -288,13 +301,13 @@ def test_the_table_of_gains_marks_the_best() -> None:
     assert lines[3].startswith("| gain of Tegotae [1] | 2 |  | 0/5 |") and "| 5 | 0 |" in lines[3]
     assert lines[6].startswith("| factor on the learning rates of APNC [1] | 1 | used | 5/5")
     assert lines[8].startswith("| APNC, printed rates | 1 |  | 5/5")
-    used = CONTENDERS["tegotae_best"].settings["gamma_tegotae"]
-    rows = [row | {"gain": used * row["gain"]} for row in gain_rows()]
-    assert f"| {used:g} | best, used | 5/5" in gains.table(rows)
+    used = CONTROLLERS["tegotae_best"].settings["gamma_tegotae"]
+    results = [result | {"gain": used * result["gain"]} for result in gain_results()]
+    assert f"| {used:g} | best, used | 5/5" in gains.table(results)
 
 
 def test_gains_have_figures_per_method_and_criterion() -> None:
-    figures = gains.STUDY.figures(gain_rows())
+    figures = gains.STUDY.figures(gain_results())
     assert [figure.key for figure in figures] == [
         f"gains-{label}-{column}"
         for label in ("tegotae", "phase_reset", "apnc")
@@ -307,11 +320,11 @@ def test_gains_have_figures_per_method_and_criterion() -> None:
 
 @pytest.mark.parametrize(("legs", "gait"), [(4, "trot"), (6, "tripod"), (10, "gait")])
 def test_baselines_in_the_states_are_judged_by_the_gait_of_the_robot(legs: int, gait: str) -> None:
-    def figures(cell: Row) -> Row:
+    def figures(cell: Result) -> Result:
         phases = {f"phi_final_1{k}": None for k in range(2, legs + 1)}
         return {"state_S1": True, "state_S2": cell["seed"] == 0, "state_S3": False, **phases}
 
-    text = states.table(made_up({}, figures, methods=("tegotae_best",), study="states"))
+    text = states.table(made_up({}, figures, controllers=("tegotae_best",), study="states"))
     assert (
         f"| Tegotae (best) | S2 | keeps the {gait} and walks | 1/6 (0 ... 64 %) | - | - |" in text
     )

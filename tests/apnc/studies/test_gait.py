@@ -1,4 +1,4 @@
-"""How it walks: the figures of the worst foot, and every aim with rows for each verdict."""
+"""How it walks: the figures of the worst foot, and every aim with results for each verdict."""
 
 from __future__ import annotations
 
@@ -8,29 +8,29 @@ from typing import Any
 
 import numpy as np
 import pytest
-from made_up_rows import Row, made_up
+from made_up_results import Result, made_up
 from records import LIFT, synthetic_record
 
 from apnc.loop.record import End, Record
 from apnc.studies import gait
 from apnc.studies.claims import NO, PARTLY, YES, findings
-from apnc.studies.engine import grid_of
+from apnc.studies.runner import grid_of
 
 MIS = gait.MI_VALUES
 
 
-def rows(figures: Callable[[Row], Row]) -> list[Row]:
-    return made_up({"mi": MIS}, figures, methods=("apnc",), study="gait")
+def results(figures: Callable[[Result], Result]) -> list[Result]:
+    return made_up({"mi": MIS}, figures, controllers=("apnc",), study="gait")
 
 
 def verdict(text: str, **figures: Any) -> str:
-    """Verdict of an aim on rows with these figures, which may depend on MI and seed."""
+    """Verdict of an aim on results with these figures, which may depend on MI and seed."""
 
-    def of(cell: Row) -> Row:
+    def of(cell: Result) -> Result:
         return {name: f(cell["mi"], cell["seed"]) for name, f in figures.items()}
 
     (aim,) = [aim for aim in gait.AIMS if aim.text.startswith(text)]
-    return findings(rows(of), [aim])[0][1].verdict
+    return findings(results(of), [aim])[0][1].verdict
 
 
 @pytest.mark.parametrize(
@@ -128,10 +128,10 @@ def test_a_run_that_ended_early_or_stands_has_no_figures() -> None:
 def test_every_mi_is_walked_from_the_start() -> None:
     trials = grid_of("gait", 2)
     assert [t.experiment.mi for t in trials[::2]] == list(MIS) and {0.06, 0.28, 0.4} <= set(MIS)
-    assert all(t.experiment.duration == 45.0 and t.experiment.method == "apnc" for t in trials)
+    assert all(t.experiment.duration == 45.0 and t.experiment.controller == "apnc" for t in trials)
 
 
 def test_a_line_per_mi() -> None:
-    found = gait.table(rows(lambda cell: {gait.LIFT: 7.0, gait.TURNED: -12.0, gait.SLIP: 0.1}))
+    found = gait.table(results(lambda cell: {gait.LIFT: 7.0, gait.TURNED: -12.0, gait.SLIP: 0.1}))
     assert len(found.splitlines()) == 2 + len(MIS)
     assert "7.0 (7.0 ... 7.0)" in found and "12 (12 ... 12)" in found and "10 (10" in found

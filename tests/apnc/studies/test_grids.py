@@ -7,20 +7,22 @@ from typing import Any
 
 import pytest
 
+from apnc.controllers import ALL, BASELINES, named_controller
 from apnc.loop.steps import parse_steps, steps_of
 from apnc.studies import gains
-from apnc.studies.contenders import ALL, RIVALS, contender
-from apnc.studies.engine import grid_of
 from apnc.studies.registry import STUDIES, names_of
+from apnc.studies.runner import grid_of
 from apnc.studies.study import Trial, load
+from apnc_core.enumerations import Method
 from apnc_plant.robot import load_robot
 
 
 def count(name: str, trials: int = 2, **more: Any) -> Counter[tuple[Any, ...]]:
-    """How often each method and value of the axes occurs."""
+    """How often each controller and value of the axes occurs."""
     axes = load(STUDIES[name]).axes
     return Counter(
-        (t.cell["method"], *(t.cell[axis] for axis in axes)) for t in grid_of(name, trials, **more)
+        (t.cell["controller"], *(t.cell[axis] for axis in axes))
+        for t in grid_of(name, trials, **more)
     )
 
 
@@ -29,25 +31,25 @@ def of(name: str, **cell: Any) -> list[Trial]:
 
 
 @pytest.mark.parametrize(
-    ("name", "cells", "others", "methods", "duration"),
+    ("name", "cells", "others", "controllers", "duration"),
     [
-        ("mi", 13, 7, ("apnc", "apc", *RIVALS), 45.0),
+        ("mi", 13, 7, ("apnc", "apc", *BASELINES), 45.0),
         ("rate", 8, 5, ALL, 60.0),
         ("terrain", 7, 5, ALL, 45.0),
         ("conditions", 4, 4, ALL, 45.0),
         ("damage", 1, 1, ALL, 45.0),
-        ("states", 1, 1, ("apnc", "apc", *RIVALS, "apnc_kept"), 34.0),
+        ("states", 1, 1, ("apnc", "apc", *BASELINES, "apnc_kept"), 34.0),
     ],
 )
 def test_apnc_walks_every_cell_and_the_others_fewer_with_half_of_the_seeds(
-    name: str, cells: int, others: int, methods: tuple[str, ...], duration: float
+    name: str, cells: int, others: int, controllers: tuple[str, ...], duration: float
 ) -> None:
     found = count(name, 4)
-    assert {cell[0] for cell in found} == set(methods)
+    assert {cell[0] for cell in found} == set(controllers)
     own = {cell[1:]: n for cell, n in found.items() if cell[0] == "apnc"}
     assert len(own) == cells and set(own.values()) == {4}
-    for method in methods[1:]:
-        there = {cell[1:]: n for cell, n in found.items() if cell[0] == method}
+    for controller in controllers[1:]:
+        there = {cell[1:]: n for cell, n in found.items() if cell[0] == controller}
         assert len(there) == others and set(there.values()) == {2} and set(there) <= set(own)
     assert {t.experiment.duration for t in grid_of(name, 1)} == {duration}
 
@@ -56,13 +58,16 @@ def test_apnc_walks_every_cell_and_the_others_fewer_with_half_of_the_seeds(
 def test_a_trial_is_what_its_cell_says(name: str) -> None:
     for trial in grid_of(name, 2):
         assert trial.experiment.duration == trial.cell["duration"]
-        assert trial.experiment.method == contender(trial.cell["method"]).method
+        assert trial.experiment.controller == trial.cell["controller"]
         assert trial.experiment.seed == trial.cell["seed"]
         assert trial.experiment.preset == "robot"
         assert trial.experiment.description.name == "lilibot"
         if name not in ("gains", "steering"):  # which set something themselves
-            settings = contender(trial.cell["method"]).settings_in(name)
-            assert dict(trial.experiment.settings) == dict(settings)
+            used = named_controller(trial.cell["controller"])
+            assert dict(trial.experiment.settings) == dict(used.in_study.get(name, {}))
+            found = trial.experiment.parameters()
+            assert found["method"] == Method[used.method]
+            assert {n: found[n] for n in used.settings_in(name)} == used.settings_in(name)
 
 
 def test_all_of_the_paper_takes_a_minute() -> None:
@@ -80,16 +85,17 @@ def test_gains_are_those_of_each_method() -> None:
     found = count("gains", 20)
     wanted = {(m, mi, g) for m, grid in gains.GAINS.items() for mi in (0.08, 0.2) for g in grid}
     assert found == dict.fromkeys(wanted, 5)
-    (own,) = of("gains", method="apnc", gain=1.0, mi=0.08, seed=0)
+    (own,) = of("gains", controller="apnc", gain=1.0, mi=0.08, seed=0)
     assert not own.experiment.settings
     rates = own.experiment.parameters()
-    (tenth,) = of("gains", method="apnc", gain=0.1, mi=0.08, seed=0)
+    (tenth,) = of("gains", controller="apnc", gain=0.1, mi=0.08, seed=0)
     assert tenth.experiment.settings == pytest.approx({n: 0.1 * rates[n] for n in ("B_f", "B_s")})
-    (printed,) = of("gains", method="apnc_printed", mi=0.08, seed=0)
-    assert printed.experiment.settings == {"B_f": 0.002, "B_s": 0.0002}
-    (fixed,) = of("gains", method="tegotae", gain=0.09, mi=0.08, seed=0)
+    (printed,) = of("gains", controller="apnc_printed", mi=0.08, seed=0)
+    rates = printed.experiment.parameters()
+    assert (rates["B_f"], rates["B_s"]) == (0.002, 0.0002)
+    (fixed,) = of("gains", controller="tegotae", gain=0.09, mi=0.08, seed=0)
     assert fixed.experiment.settings == {"gamma_tegotae": 0.09}
-    (reset,) = of("gains", method="phase_reset", gain=0.8, mi=0.2, seed=0)
+    (reset,) = of("gains", controller="phase_reset", gain=0.8, mi=0.2, seed=0)
     assert reset.experiment.settings == {"grf_reset": 0.8} and reset.experiment.mi == 0.2
 
 
@@ -105,7 +111,7 @@ def test_the_paper_is_all_of_its_experiments() -> None:
 
 def test_every_trial_has_its_own_place() -> None:
     trials = grid_of("all", 2)
-    assert len({t.place for t in trials}) == len(trials)
+    assert len({t.id for t in trials}) == len(trials)
 
 
 def test_mi_is_that_of_the_cell() -> None:
@@ -130,7 +136,7 @@ def test_the_ground_is_rough_and_other_for_every_seed() -> None:
         assert ground["roughness"] == trial.cell["roughness"]
         assert ground["seed"] == trial.cell["seed"]
         assert trial.experiment.mi == 0.08
-    assert [t.cell["roughness"] for t in of("terrain", method="apnc", seed=0)] == pytest.approx(
+    assert [t.cell["roughness"] for t in of("terrain", controller="apnc", seed=0)] == pytest.approx(
         [0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 1.0]
     )
 
@@ -160,10 +166,10 @@ def test_states_follow_the_timeline() -> None:
 
 
 def test_steering_turns_right_and_then_left() -> None:
-    (turns,) = of("steering", course="turns", seed=0)
+    (turns,) = of("steering", schedule="turns", seed=0)
     assert turns.experiment.turn == ((0.0, 0.0), (20.0, -1.0), (35.0, 1.0), (50.0, 0.0))
     assert turns.experiment.mi == 0.15
-    (speeds,) = of("steering", course="speeds", seed=1)
+    (speeds,) = of("steering", schedule="speeds", seed=1)
     assert speeds.experiment.mi == ((0.0, 0.15), (25.0, 0.4), (40.0, 0.15))
     assert steps_of(speeds.experiment.turn) == ((0.0, 0.0),)
     assert turns.experiment.duration == speeds.experiment.duration == 60.0
@@ -171,11 +177,11 @@ def test_steering_turns_right_and_then_left() -> None:
 
 def test_slopes_are_scaled_on_straight_walks_with_half_of_the_seeds() -> None:
     assert set(count("steering", 4).items()) == {
-        *((("apnc", course), 4) for course in ("speeds", "turns")),
+        *((("apnc", schedule), 4) for schedule in ("speeds", "turns")),
         *((("apnc", f"slopes x {x}"), 2) for x in ("0.6", "0.8", "1", "1.2", "1.4")),
     }
-    (own,) = of("steering", course="slopes x 1", seed=0)
-    (more,) = of("steering", course="slopes x 1.2", seed=0)
+    (own,) = of("steering", schedule="slopes x 1", seed=0)
+    (more,) = of("steering", schedule="slopes x 1.2", seed=0)
     assert own.experiment.mi == more.experiment.mi == 0.15 and more.experiment.duration == 25.0
     for name in ("a1", "a2"):
         before, after = (t.experiment.parameters()[name] for t in (own, more))
@@ -184,7 +190,7 @@ def test_slopes_are_scaled_on_straight_walks_with_half_of_the_seeds() -> None:
 
 def test_chosen_values_methods_and_duration() -> None:
     trials = grid_of("mi", 1, ["tegotae"], {"mi": ["0.1", "0.1", 0.3]}, 5.0)
-    assert [(t.experiment.method, t.experiment.mi, t.experiment.duration) for t in trials] == [
+    assert [(t.experiment.controller, t.experiment.mi, t.experiment.duration) for t in trials] == [
         ("tegotae", 0.1, 5.0),
         ("tegotae", 0.3, 5.0),
     ]
@@ -192,9 +198,9 @@ def test_chosen_values_methods_and_duration() -> None:
 
 
 def test_methods_of_all_leave_the_others_alone() -> None:
-    by_study = {(t.study, t.cell["method"]) for t in grid_of("all", 1, ["tegotae"])}
+    by_study = {(t.study, t.cell["controller"]) for t in grid_of("all", 1, ["tegotae"])}
     assert ("rate", "tegotae") in by_study and ("rate", "apnc") not in by_study
-    assert {"apnc", "apc"} < {method for study, method in by_study if study == "states"}
+    assert {"apnc", "apc"} < {controller for study, controller in by_study if study == "states"}
 
 
 @pytest.mark.parametrize(
@@ -202,9 +208,9 @@ def test_methods_of_all_leave_the_others_alone() -> None:
     [
         (("moo", 1), "study 'moo' is not one of mi, rate, .*, all"),
         (("mi", 0), "trials = 0 is not at least 1"),
-        (("mi", 1, ["moo"]), "method 'moo' is not one of apnc"),
-        (("mi", 1, []), "no method is given"),
-        (("states", 1, ["tegotae"]), "study 'states' takes no methods"),
+        (("mi", 1, ["moo"]), "controller 'moo' is not one of apnc"),
+        (("mi", 1, []), "no controller is given"),
+        (("states", 1, ["tegotae"]), "study 'states' takes no controllers"),
         (("mi", 1, None, {"mi": []}), "no mi is given"),
         (("mi", 1, None, {"mi": ["fast"]}), "mi = fast: not a number"),
         (("mi", 1, None, {"mi": [9.0]}), "mi = 9.0 is not in"),
@@ -223,11 +229,11 @@ def test_the_robot_asked_for_walks_with_its_own_numbers() -> None:
     for name in [name for name, entry in STUDIES.items() if "robot" in entry.options]:
         trials = grid_of(name, 1, robot="hexapod")
         assert {(t.cell["robot"], t.experiment.robot) for t in trials} == {("hexapod", "hexapod")}
-    (steep,) = grid_of("steering", 1, chosen={"course": ["slopes x 1.2"]}, robot="hexapod")
+    (steep,) = grid_of("steering", 1, chosen={"schedule": ["slopes x 1.2"]}, robot="hexapod")
     own = load_robot("hexapod").controller
     assert steep.experiment.settings == {k: pytest.approx(1.2 * own[k]) for k in ("a1", "a2")}
 
 
 def test_options_of_the_registry_are_those_of_the_grid() -> None:
     for name, entry in STUDIES.items():
-        assert set(entry.options) - {"methods", "robot"} == set(load(STUDIES[name]).axes)
+        assert set(entry.options) - {"controllers", "robot"} == set(load(STUDIES[name]).axes)

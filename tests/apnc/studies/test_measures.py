@@ -12,9 +12,9 @@ from records import TRIPOD, TROT, outputs, synthetic_record
 
 from apnc.loop.record import End, Record
 from apnc.studies import gains, mi, steering
-from apnc.studies.engine import measured
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import Row
+from apnc.studies.results import Result
+from apnc.studies.runner import measured
 from apnc.studies.states.measure import as_paper_says, judge, measure
 from apnc.studies.states.timeline import TIMELINE, Timeline
 
@@ -27,7 +27,7 @@ def states_record(
     phases: Sequence[tuple[float, Sequence[float]]] = ((0.0, TROT),),
     speeds: Sequence[tuple[float, float]] = ((0.0, 0.1),),
     *,
-    method: str = "apnc",
+    controller: str = "apnc",
     stops: Sequence[tuple[float, float, int]] = (),
     stored: float = 6.0,
     duration: float = TIMELINE.end,
@@ -46,7 +46,7 @@ def states_record(
         inside = (t >= begin) & (t < end)
         o1[inside, leg], o2[inside, leg] = 0.3, 0.1
     position = np.column_stack([np.cumsum(speed) / 60.0, 0 * t, 0 * t + 0.148])
-    experiment = replace(TIMELINE.experiment(method, 0), duration=duration)
+    experiment = replace(TIMELINE.experiment(controller, 0), duration=duration)
     return replace(
         base,
         experiment=experiment,
@@ -61,13 +61,17 @@ def states_record(
 
 
 def test_a_trot_all_along_is_as_the_paper_says_with_couplings() -> None:
-    row = measure(states_record())
-    assert row["state_formed"] and row["state_kept"] and row["state_recovered"]
-    assert not row["state_front_stopped"] and not row["state_in_phase"] and not row["state_fell"]
-    assert (row["state_S1"], row["state_S2"], row["state_S3"]) == (True, True, True)
-    assert row["state_formation_time_s"] == pytest.approx(0.0, abs=1 / 60)
-    assert row["state_recovery_time_s"] == pytest.approx(0.0, abs=1 / 60)
-    assert row["state_stored_at_s"] == pytest.approx(6.0)
+    result = measure(states_record())
+    assert result["state_formed"] and result["state_kept"] and result["state_recovered"]
+    assert (
+        not result["state_front_stopped"]
+        and not result["state_in_phase"]
+        and not result["state_fell"]
+    )
+    assert (result["state_S1"], result["state_S2"], result["state_S3"]) == (True, True, True)
+    assert result["state_formation_time_s"] == pytest.approx(0.0, abs=1 / 60)
+    assert result["state_recovery_time_s"] == pytest.approx(0.0, abs=1 / 60)
+    assert result["state_stored_at_s"] == pytest.approx(6.0)
 
 
 def test_times_count_from_the_set_down_and_the_restart() -> None:
@@ -150,7 +154,7 @@ def test_without_two_seconds_on_either_side_gamma_is_not_told(stored: float) -> 
     assert found["gamma_before"] is None and found["gamma_after"] is None
 
 
-BASE: Row = {
+BASE: Result = {
     "formed": True,
     "kept": True,
     "front_stopped": True,
@@ -162,7 +166,7 @@ BASE: Row = {
 
 
 @pytest.mark.parametrize(
-    ("method", "changed", "expected"),
+    ("controller", "changed", "expected"),
     [
         ("apnc", {"speed_s3": 0.03}, (True, True, True)),
         ("apnc", {"speed_s3": 0.03, "formed": False}, (False, True, True)),
@@ -181,8 +185,8 @@ BASE: Row = {
         ("apc", {"speed_s3": -0.011}, (True, True, False)),
     ],
 )
-def test_as_the_paper_says(method: str, changed: Row, expected: tuple[bool, ...]) -> None:
-    found = as_paper_says(BASE | changed, method)
+def test_as_the_paper_says(controller: str, changed: Result, expected: tuple[bool, ...]) -> None:
+    found = as_paper_says(BASE | changed, controller)
     assert (found["S1"], found["S2"], found["S3"]) == expected
 
 
@@ -203,7 +207,7 @@ def test_a_shorter_run_is_none_of_the_states() -> None:
 
 
 def test_without_couplings_the_method_decides() -> None:
-    assert measure(states_record(method="apc"))["state_S2"] is False
+    assert measure(states_record(controller="apc"))["state_S2"] is False
 
 
 @pytest.mark.parametrize(
@@ -221,63 +225,63 @@ def test_a_robot_may_stand_from_the_start() -> None:
     assert TIMELINE.experiment("apc", 0, settings={"xi": 0.02}).settings == {"xi": 0.02}
 
 
-# --- courses -----------------------------------------------------------------------------------
+# --- schedules -----------------------------------------------------------------------------------
 
 
-def on_course(course: str, signals: dict[str, Any], ended: float = 60.0) -> Record:
+def on_schedule(schedule: str, signals: dict[str, Any], ended: float = 60.0) -> Record:
     base = synthetic_record(ended)
-    experiment = steering.experiment(course)
+    experiment = steering.experiment(schedule)
     end = End.complete if ended == 60.0 else End.fell
     return replace(base, experiment=experiment, signals={**base.signals, **signals}, end=end)
 
 
-def test_yaw_rate_is_that_of_each_section_after_five_seconds() -> None:
+def test_yaw_rate_is_that_of_each_interval_after_five_seconds() -> None:
     t = synthetic_record(60.0).time
     rate = np.select([t < 25, t < 35, t < 40, t < 50, t < 55], [0.0, -0.2, 9.0, 0.3, 9.0], 0.1)
     yaw = np.cumsum(rate) / 60.0
     rpy = np.column_stack([0 * t, 0 * t, np.angle(np.exp(1j * yaw))])
-    row = steering.measure(on_course("turns", {"rpy": rpy}))
-    found = [row[f"yaw_rate_section_{i}"] for i in (1, 2, 3, 4)]
+    result = steering.measure(on_schedule("turns", {"rpy": rpy}))
+    found = [result[f"yaw_rate_section_{i}"] for i in (1, 2, 3, 4)]
     assert found == pytest.approx([0.0, -0.2, 0.3, 0.1], rel=0.01)
-    assert len(row) == 4
+    assert len(result) == 4
 
 
-def test_speed_is_that_of_each_section_after_five_seconds() -> None:
+def test_speed_is_that_of_each_interval_after_five_seconds() -> None:
     t = synthetic_record(60.0).time
     speed = np.select([t < 5, t < 25, t < 30, t < 40, t < 45], [9.0, 0.08, 9.0, 0.16, 9.0], 0.1)
     way = np.cumsum(speed) / 60.0
     position = np.column_stack([0.6 * way, 0.8 * way, 5 * np.sin(t)])
     rpy = np.column_stack([0 * t, 0 * t, 0 * t + np.arctan2(0.8, 0.6)])
-    row = steering.measure(on_course("speeds", {"position": position, "rpy": rpy}))
-    found = [row[f"speed_section_{i}"] for i in (1, 2, 3)]
+    result = steering.measure(on_schedule("speeds", {"position": position, "rpy": rpy}))
+    found = [result[f"speed_section_{i}"] for i in (1, 2, 3)]
     assert found == pytest.approx([0.08, 0.16, 0.1], rel=0.01)
-    assert len(row) == 3
+    assert len(result) == 3
 
 
 def test_a_robot_that_walks_in_a_circle_has_its_speed() -> None:
     """At its end it is where it began: the way there and back is no distance."""
     t = synthetic_record(60.0).time
-    turn = 2 * np.pi / 10.0  # rad/s, once round in a section after its settling
+    turn = 2 * np.pi / 10.0  # rad/s, once round in an interval after its settling
     yaw = turn * t
     place = 0.1 / turn * np.column_stack([np.sin(yaw), -np.cos(yaw), 0 * t])
     rpy = np.column_stack([0 * t, 0 * t, np.angle(np.exp(1j * yaw))])
-    row = steering.measure(on_course("speeds", {"position": place, "rpy": rpy}))
-    assert [row[f"speed_section_{i}"] for i in (1, 2, 3)] == pytest.approx([0.1] * 3, rel=0.03)
+    result = steering.measure(on_schedule("speeds", {"position": place, "rpy": rpy}))
+    assert [result[f"speed_section_{i}"] for i in (1, 2, 3)] == pytest.approx([0.1] * 3, rel=0.03)
 
 
-def test_a_walk_on_other_slopes_has_one_section() -> None:
-    row = steering.measure(
+def test_a_walk_on_other_slopes_has_one_interval() -> None:
+    result = steering.measure(
         replace(synthetic_record(25.0), experiment=steering.experiment("slopes x 0.8"))
     )
-    assert row == {"speed_section_1": pytest.approx(0.08, rel=0.01)}
+    assert result == {"speed_section_1": pytest.approx(0.08, rel=0.01)}
 
 
-def test_a_section_not_walked_to_its_end_has_no_speed() -> None:
-    row = steering.measure(on_course("speeds", {}, ended=39.0))
-    assert row["speed_section_1"] == pytest.approx(0.08, rel=0.01)
-    assert row["speed_section_2"] is None and row["speed_section_3"] is None
-    row = steering.measure(on_course("turns", {}, ended=1.0))
-    assert set(row.values()) == {None}
+def test_an_interval_not_walked_to_its_end_has_no_speed() -> None:
+    result = steering.measure(on_schedule("speeds", {}, ended=39.0))
+    assert result["speed_section_1"] == pytest.approx(0.08, rel=0.01)
+    assert result["speed_section_2"] is None and result["speed_section_3"] is None
+    result = steering.measure(on_schedule("turns", {}, ended=1.0))
+    assert set(result.values()) == {None}
 
 
 # --- gains -------------------------------------------------------------------------------------
@@ -295,9 +299,9 @@ def test_an_oscillator_that_hardly_moves_at_the_end_has_stopped() -> None:
     assert gains.measure(record) == {gains.STILL: 1}
 
 
-def setting_rows(
+def setting_results(
     *by_gain: tuple[float, int, float, float],
-) -> list[Row]:
+) -> list[Result]:
     """Gain, strict formations of four, authors' time and speed."""
     return [
         {
@@ -327,48 +331,59 @@ def setting_rows(
 def test_the_best_setting(
     by_gain: tuple[tuple[float, int, float, float], ...], best: float | None
 ) -> None:
-    assert gains.best_setting(setting_rows(*by_gain)) == best
+    assert gains.best_setting(setting_results(*by_gain)) == best
 
 
 def test_a_run_that_fell_or_has_no_figures_is_no_walk() -> None:
-    rows = setting_rows((0.1, 4, 2.0, 0.1))
-    rows[0]["fell"] = True
-    rows[1] = {"gain": 0.1, "error": "moo"}
-    assert gains.walks(rows) == 2
+    results = setting_results((0.1, 4, 2.0, 0.1))
+    results[0]["fell"] = True
+    results[1] = {"gain": 0.1, "error": "moo"}
+    assert gains.walks(results) == 2
 
 
 def test_without_a_strict_trot_the_most_by_the_authors_criterion_are_best() -> None:
-    rows = setting_rows((0.1, 0, 1.0, 0.1), (0.2, 0, 9.0, 0.1))
-    rows[0]["convergence_time_authors_s"] = None
-    assert gains.best_setting(rows) == 0.2
+    results = setting_results((0.1, 0, 1.0, 0.1), (0.2, 0, 9.0, 0.1))
+    results[0]["convergence_time_authors_s"] = None
+    assert gains.best_setting(results) == 0.2
 
 
 def test_never_is_later_than_any_time() -> None:
-    rows = setting_rows((0.1, 0, 40.0, 0.1), (0.2, 0, 5.0, 0.1))
-    for standing, without in zip(rows[:3], rows[4:7], strict=True):  # one walk of each is left
+    results = setting_results((0.1, 0, 40.0, 0.1), (0.2, 0, 5.0, 0.1))
+    for standing, without in zip(
+        results[:3], results[4:7], strict=True
+    ):  # one walk of each is left
         standing["late_speed_m_per_s"] = 0.0
         without["convergence_time_authors_s"] = None
-    assert gains.best_setting(rows) == 0.1
+    assert gains.best_setting(results) == 0.1
 
 
-# --- rows --------------------------------------------------------------------------------------
+# --- results --------------------------------------------------------------------------------------
 
 
-def test_a_row_has_the_summary_and_how_the_run_ended() -> None:
-    row = measured(STUDIES["mi"], synthetic_record(20.0))
-    assert row["converged"] is True and row["convergence_time_s"] == pytest.approx(0.0, abs=0.1)
-    assert row["phi_final_12"] == pytest.approx(np.pi, abs=0.01)
-    assert row["phi_final_14"] == pytest.approx(0.0, abs=0.01)
+def test_a_result_has_the_summary_and_how_the_run_ended() -> None:
+    result = measured(STUDIES["mi"], synthetic_record(20.0))
+    assert result["converged"] is True and result["convergence_time_s"] == pytest.approx(
+        0.0, abs=0.1
+    )
+    assert result["phi_final_12"] == pytest.approx(np.pi, abs=0.01)
+    assert result["phi_final_14"] == pytest.approx(0.0, abs=0.01)
     # the half-sine load is above a tenth of its peak for this share of a stance of 0.6
     share = 1.0 - 2.0 * np.arcsin(0.1) / np.pi
-    assert row["duty_factor_mean"] == pytest.approx(0.6 * share, abs=0.01)
-    assert row["stride_frequency_hz"] == pytest.approx(1.4, rel=0.01)
-    assert (row["end"], row["error"], row["ended_at_s"]) == ("complete", "", 20.0)
-    assert not set(row) & {"method", "seed", "mi", "duration_s", "message", "real_time_factor"}
-    assert not any(isinstance(value, dict | tuple | list) for value in row.values())
+    assert result["duty_factor_mean"] == pytest.approx(0.6 * share, abs=0.01)
+    assert result["stride_frequency_hz"] == pytest.approx(1.4, rel=0.01)
+    assert (result["end"], result["error"], result["ended_at_s"]) == ("complete", "", 20.0)
+    assert not set(result) & {
+        "controller",
+        "seed",
+        "mi",
+        "duration_s",
+        "message",
+        "real_time_factor",
+    }
+    assert not any(isinstance(value, dict | tuple | list) for value in result.values())
 
 
-def test_a_fall_and_a_divergence_are_told_in_the_row() -> None:
+def test_a_fall_and_a_divergence_are_told_in_the_result() -> None:
     fell = measured(STUDIES["mi"], replace(synthetic_record(20.0), end=End.fell))
     assert fell["end"] == "fell" and fell["fell"] is True and fell["error"] == ""
     assert fell["convergence_time_s"] is None

@@ -9,26 +9,26 @@ from browser import console_lines, look, needs_browser
 
 import apnc_core
 from apnc.studies import report
-from apnc.studies.engine import grid_of
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import AUTHORS, STRICT, Row
+from apnc.studies.results import AUTHORS, STRICT, Result
+from apnc.studies.runner import grid_of
 from apnc.studies.study import Trial, load
 
 
-def rows_of(grid: list[Trial]) -> list[Row]:
-    """Rows of trials that nobody ran: APNC converges first."""
+def results_of(grid: list[Trial]) -> list[Result]:
+    """Results of trials that nobody ran: APNC converges first."""
     figures = {"duty_factor_mean": 0.6, "stride_frequency_hz": 1.5, "path_speed_m_per_s": 0.1}
     end = {"fell": False, "version": "9.9", "end": "complete", "error": ""}
     times = {"apnc": 2.0, "tegotae": 9.0, "tegotae_best": 8.0}
     return [
-        {"study": t.study, "key": t.place[-1], **t.cell, **figures, **end}
-        | dict.fromkeys((STRICT, AUTHORS), times.get(t.cell["method"], 20.0))
+        {"study": t.study, "key": t.id.key, **t.cell, **figures, **end}
+        | dict.fromkeys((STRICT, AUTHORS), times.get(t.cell["controller"], 20.0))
         for t in grid
     ]
 
 
-def write(tmp_path: Path, grid: list[Trial], rows: list[Row]) -> str:
-    for name, put in report.files_of(grid, rows, 90.0, scenes=False).items():
+def write(tmp_path: Path, grid: list[Trial], results: list[Result]) -> str:
+    for name, put in report.files_of(grid, results, 90.0, scenes=False).items():
         put(tmp_path / name)
     return (tmp_path / "report.html").read_text()
 
@@ -39,7 +39,7 @@ def grid() -> list[Trial]:
 
 
 def test_the_head_says_what_was_run(tmp_path: Path, grid: list[Trial]) -> None:
-    page = write(tmp_path, grid, rows_of(grid))
+    page = write(tmp_path, grid, results_of(grid))
     for text in (
         "lilibot",
         "45 s",
@@ -59,7 +59,7 @@ def test_the_head_says_what_was_run(tmp_path: Path, grid: list[Trial]) -> None:
 
 
 def test_the_report_shows_claims(tmp_path: Path, grid: list[Trial]) -> None:
-    page = write(tmp_path, grid, rows_of(grid))
+    page = write(tmp_path, grid, results_of(grid))
     assert '<td class="reproduced">reproduced</td>' in page
     text = (tmp_path / "claims.md").read_text()
     line = next(line for line in text.splitlines() if "APNC converges faster than Tegotae" in line)
@@ -68,19 +68,19 @@ def test_the_report_shows_claims(tmp_path: Path, grid: list[Trial]) -> None:
     )
     assert line.endswith(" | **reproduced** |")
     assert "- commit: " in text
-    assert (tmp_path / "mi.md").read_text().startswith("| method | MI | gait kept, strict")
+    assert (tmp_path / "mi.md").read_text().startswith("| controller | MI | gait kept, strict")
 
 
 def test_aims_are_reached_or_not_and_are_not_claims_of_the_paper(tmp_path: Path) -> None:
     aims = grid_of("gait", 6, chosen={"mi": [0.08, 0.16]})
-    page = write(tmp_path, aims, rows_of(aims))
+    page = write(tmp_path, aims, results_of(aims))
     assert "aimed at" in page and "reached?" in page and ">reached</td>" in page
     assert "paper says" not in page and ">reproduced</td>" not in page
 
 
 def test_a_method_that_was_not_run_is_said(tmp_path: Path) -> None:
     few = grid_of("mi", 1, ["apnc", "tegotae"], {"mi": [0.08]})
-    page = write(tmp_path, few, rows_of(few))
+    page = write(tmp_path, few, results_of(few))
     assert "; not run: APC alone, Tegotae (best), phase resetting, phase resetting (best)" in page
     assert "not run: phase_reset, phase_reset_best" in page  # the claim on it
 
@@ -88,10 +88,10 @@ def test_a_method_that_was_not_run_is_said(tmp_path: Path) -> None:
 def test_trials_that_failed_are_listed_with_their_command(
     tmp_path: Path, grid: list[Trial]
 ) -> None:
-    rows = rows_of(grid)
-    rows[0] |= {"end": "fell", "fell": True}
-    rows[1] |= {"end": "error", "error": "FmuError: <moo>"}
-    page = write(tmp_path, grid, rows)
+    results = results_of(grid)
+    results[0] |= {"end": "fell", "fell": True}
+    results[1] |= {"end": "error", "error": "FmuError: <moo>"}
+    page = write(tmp_path, grid, results)
     assert "2 trials did not come to their end" in page
     first, second = (trial.experiment.command() for trial in grid[:2])
     assert f"<li>fell: <code>{first}</code></li>" in page
@@ -99,11 +99,11 @@ def test_trials_that_failed_are_listed_with_their_command(
 
 
 def test_a_page_needs_nothing_from_elsewhere(tmp_path: Path, grid: list[Trial]) -> None:
-    page = write(tmp_path, grid, rows_of(grid))
+    page = write(tmp_path, grid, results_of(grid))
     assert "default-src 'none'" in page and "<script src" not in page
 
 
-def test_a_stopped_study_with_no_row_has_a_report(tmp_path: Path, grid: list[Trial]) -> None:
+def test_a_stopped_study_with_no_result_has_a_report(tmp_path: Path, grid: list[Trial]) -> None:
     assert "0, 0 s simulated" in write(tmp_path, grid, [])
     assert (tmp_path / "trials.csv").read_text() == "\n"
 
@@ -116,9 +116,9 @@ def test_scenes_are_drawn_when_all_is_there(
     asked: list[str] = []
     object.__setattr__(study, "scenes", lambda robot: asked.append(robot) or [])
     try:
-        report.files_of(trials, rows_of(trials), 1.0, scenes=False)
+        report.files_of(trials, results_of(trials), 1.0, scenes=False)
         assert asked == []
-        report.files_of(trials, rows_of(trials), 1.0, scenes=True)
+        report.files_of(trials, results_of(trials), 1.0, scenes=True)
         assert asked == ["hexapod"]
     finally:
         object.__setattr__(study, "scenes", lambda robot: [])
@@ -126,7 +126,7 @@ def test_scenes_are_drawn_when_all_is_there(
 
 @needs_browser
 def test_a_report_draws_in_a_browser(tmp_path: Path, grid: list[Trial]) -> None:
-    write(tmp_path, grid, rows_of(grid))
+    write(tmp_path, grid, results_of(grid))
     seen, log = look(tmp_path / "report.html", tmp_path)
     assert seen["errors"] == [] and console_lines(log) == []
     keys = (STRICT, AUTHORS, "duty_factor_mean", "path_speed_m_per_s")

@@ -1,4 +1,4 @@
-"""Single runs over time: commands, loads and sections, on made-up records."""
+"""Single runs over time: commands, loads and intervals, on made-up records."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from apnc.report import theme
 from apnc.report.figure import Figure
 from apnc.studies.states.figures import broken, over_time
 from apnc.studies.states.timeline import TIMELINE
-from apnc.studies.steering.course import experiment
 from apnc.studies.steering.figures import WAYS, path, speeds_over_time, turns_over_time
+from apnc.studies.steering.schedules import experiment
 from apnc_core.types import Array
 
 
-def rows(figure: Figure) -> dict[str, list[dict[str, Any]]]:
+def results(figure: Figure) -> dict[str, list[dict[str, Any]]]:
     """Traces with samples by the title of their axis."""
     found: dict[str, list[dict[str, Any]]] = {}
     for trace in figure.data:
@@ -74,7 +74,7 @@ def through_the_states() -> Record:
 def test_loads_are_those_of_the_circuits_and_broken_sensors_stand_out() -> None:
     record = through_the_states()
     weight = record.experiment.parameters()["robot_weight"]
-    shown = rows(over_time(record, "")[0])
+    shown = results(over_time(record, "")[0])
     assert list(shown) == ["MI [1]", *(f"<b>{leg}</b> F [1]" for leg in record.legs)]
     assert numbers(shown["MI [1]"][0]["y"]) == pytest.approx(record.signals["MI"])
     # halves of the weight, at most F_max = 1
@@ -95,12 +95,12 @@ def test_no_sensor_of_a_sound_robot_is_broken() -> None:
     assert not broken(synthetic_record(3.0)).any()
 
 
-# --- courses -----------------------------------------------------------------------------------
+# --- schedules -----------------------------------------------------------------------------------
 
 
-def on_course(course: str, **signals: Array) -> Record:
+def on_schedule(schedule: str, **signals: Array) -> Record:
     base = synthetic_record(60.0, frequency=1.5, speed=0.08)
-    asked = experiment(course)
+    asked = experiment(schedule)
     commands = {name: _over(base.time, getattr(asked, name)) for name in ("mi", "turn")}
     told = {"MI": commands["mi"], "turn": commands["turn"]}
     return replace(base, experiment=asked, signals={**base.signals, **told, **signals})
@@ -114,10 +114,10 @@ def _over(time: Array, command: Any) -> Array:
     return found
 
 
-def test_the_course_of_speeds_shows_command_speed_way_and_frequency() -> None:
-    record = on_course("speeds")
+def test_the_schedule_of_speeds_shows_command_speed_way_and_frequency() -> None:
+    record = on_schedule("speeds")
     figure = speeds_over_time(record)
-    shown = rows(figure)
+    shown = results(figure)
     (command,) = shown["MI [1]"]
     assert numbers(command["y"]) == pytest.approx(record.signals["MI"])
     raw, slow = shown["speed [m/s]"]
@@ -138,16 +138,16 @@ def test_speed_is_along_the_heading() -> None:
     turned = {name: base.signals[name].copy() for name in ("velocity", "rpy")}
     turned["velocity"][:, :2] = [0.0, 0.2]
     turned["rpy"][:, 2] = np.pi / 6
-    raw, _ = rows(speeds_over_time(on_course("speeds", **turned)))["speed [m/s]"]
+    raw, _ = results(speeds_over_time(on_schedule("speeds", **turned)))["speed [m/s]"]
     assert numbers(raw["y"]) == pytest.approx(0.1)
 
 
-def test_the_course_of_turns_shows_command_hips_yaw_and_its_rate() -> None:
+def test_the_schedule_of_turns_shows_command_hips_yaw_and_its_rate() -> None:
     t = synthetic_record(60.0).time
     yaw = np.select([t < 20, t < 35], [0 * t, -0.2 * (t - 20)], -3.0 + 0.3 * (t - 35))
-    record = on_course("turns", rpy=np.column_stack([0 * t, 0 * t, np.angle(np.exp(1j * yaw))]))
+    record = on_schedule("turns", rpy=np.column_stack([0 * t, 0 * t, np.angle(np.exp(1j * yaw))]))
     figure = turns_over_time(record)
-    shown = rows(figure)
+    shown = results(figure)
     assert list(shown) == ["turn [1]", "hip RF [°]", "hip LF [°]", "yaw [°]", "rate [rad/s]"]
     assert numbers(shown["turn [1]"][0]["y"]) == pytest.approx(record.signals["turn"])
     for i, leg in ((0, "RF"), (2, "LF")):
@@ -159,22 +159,22 @@ def test_the_course_of_turns_shows_command_hips_yaw_and_its_rate() -> None:
     assert [text for text, _ in labels(figure)] == list(WAYS)
 
 
-def test_the_path_has_equal_scales_and_a_colour_per_section() -> None:
-    record = on_course("turns")
+def test_the_path_has_equal_scales_and_a_colour_per_interval() -> None:
+    record = on_schedule("turns")
     figure = path(record)
     assert (
         figure.layout["yaxis"]["scaleanchor"] == "x" and figure.layout["yaxis"]["scaleratio"] == 1
     )
-    *sections, start, end = figure.data
-    assert [trace["name"] for trace in sections] == [
+    *intervals, start, end = figure.data
+    assert [trace["name"] for trace in intervals] == [
         "straight, 0 to 20 s",
         "right, 20 to 35 s",
         "left, 35 to 50 s",
         "straight again, 50 to 60 s",
     ]
-    assert len({trace["line"]["color"] for trace in sections}) == 4
-    ends = [numbers(trace["x"])[[0, -1]].tolist() for trace in sections]
-    # One section begins where the other ends.
+    assert len({trace["line"]["color"] for trace in intervals}) == 4
+    ends = [numbers(trace["x"])[[0, -1]].tolist() for trace in intervals]
+    # One interval begins where the other ends.
     assert np.ravel(ends)[1:-1:2] == pytest.approx(np.ravel(ends)[2::2])
     assert ends[1] == pytest.approx([1.6, 2.8], abs=1e-3)
     assert (start["x"], end["x"]) == (
@@ -183,7 +183,7 @@ def test_the_path_has_equal_scales_and_a_colour_per_section() -> None:
     )
 
 
-def test_a_run_that_fell_on_its_course_is_shown_as_far_as_it_went() -> None:
+def test_a_run_that_fell_on_its_schedule_is_shown_as_far_as_it_went() -> None:
     record = synthetic_record(24.0)
     turns = replace(record, experiment=experiment("turns"))
     speeds = replace(record, experiment=experiment("speeds"))

@@ -1,4 +1,4 @@
-"""The search: knobs, and costs of made-up walks with closed-form answers."""
+"""The search: variables, and costs of made-up walks with closed-form answers."""
 
 from __future__ import annotations
 
@@ -39,42 +39,42 @@ from apnc.studies.search.costs import (
     tasks,
     walk_cost,
 )
+from apnc.studies.search.design import DESIGN, OWN, built_robot, design_variables, gains, start
 from apnc.studies.search.front import (
     BETTER,
     MI_VALUES,
-    best_layers,
+    best_ranks,
     candidates_of,
     front,
     measured,
-    row_of,
-    unbeaten,
+    non_dominated,
+    result_of,
     walks_of,
 )
-from apnc.studies.search.knobs import KNOBS, OWN, built_robot, gains, knobs_of, start
 from apnc_core.types import Array
 from apnc_plant.robot import ROBOTS, load_robot
 
 LILIBOT = load_robot("lilibot")
 
 
-SHIPPED = [name for name in KNOBS if (ROBOTS / f"{name}.toml").exists()]
+SHIPPED = [name for name in DESIGN if (ROBOTS / f"{name}.toml").exists()]
 
 
 @pytest.mark.parametrize("robot", SHIPPED)
-def test_knobs_reach_their_ends_and_the_shipped_robot_lies_between(robot: str) -> None:
+def test_design_variables_reach_their_ends_and_the_shipped_robot_lies_between(robot: str) -> None:
     shipped = load_robot(robot)
-    for knob in KNOBS[robot]:
-        assert knob.value(0.0) == pytest.approx(knob.low)
-        assert knob.value(1.0) == pytest.approx(knob.high)
-        value = start(shipped, knob.name)
-        assert knob.low <= value <= knob.high
-        assert knob.value(knob.place(value)) == pytest.approx(value)
+    for variable in DESIGN[robot]:
+        assert variable.value(0.0) == pytest.approx(variable.low)
+        assert variable.value(1.0) == pytest.approx(variable.high)
+        value = start(shipped, variable.name)
+        assert variable.low <= value <= variable.high
+        assert variable.value(variable.scaled(value)) == pytest.approx(value)
 
 
 @pytest.mark.parametrize("robot", SHIPPED)
 def test_the_shipped_numbers_make_the_shipped_robot(robot: str) -> None:
     shipped = load_robot(robot)
-    numbers = {knob.name: start(shipped, knob.name) for knob in KNOBS[robot]}
+    numbers = {variable.name: start(shipped, variable.name) for variable in DESIGN[robot]}
     assert built_robot(numbers, robot) == shipped
     Experiment(robot=shipped, settings=gains(numbers))  # all are parameters
 
@@ -82,7 +82,7 @@ def test_the_shipped_numbers_make_the_shipped_robot(robot: str) -> None:
 def test_a_candidate_is_a_robot_and_gains() -> None:
     candidate = {"a1": 0.2, "trunk.com_z": 0.003, "trunk.com_x": 0.01, "servo.damping": 0.5}
     robot = built_robot(candidate)
-    assert robot.trunk.body.com[0] == 0.01 and robot.trunk.body.com[2] == 0.003
+    assert robot.trunk.com[0] == 0.01 and robot.trunk.com[2] == 0.003
     assert robot.servo.damping == 0.5
     assert gains(candidate) == {"a1": 0.2}
 
@@ -95,20 +95,22 @@ def test_outer_and_inner_legs_move_on_both_sides() -> None:
 
 
 def test_a_baseline_searches_its_own_number_and_if_asked_the_robot() -> None:
-    for method, knob in OWN.items():
-        assert knobs_of("lilibot", method) == (knob,)
-        found = {knob.name for knob in knobs_of("lilibot", method, own_robot=True)}
-        assert found == {knob.name} | {k.name for k in KNOBS["lilibot"]} - {
+    for controller, variable in OWN.items():
+        assert design_variables("lilibot", controller) == (variable,)
+        found = {
+            variable.name for variable in design_variables("lilibot", controller, own_robot=True)
+        }
+        assert found == {variable.name} | {k.name for k in DESIGN["lilibot"]} - {
             "B_f", "B_s", "turn_gain"
         }  # fmt: skip
 
 
 @pytest.mark.parametrize(
-    ("robot", "method", "named"), [("cat", "apnc", "cat"), ("lilibot", "fuzzy", "fuzzy")]
+    ("robot", "controller", "named"), [("cat", "apnc", "cat"), ("lilibot", "fuzzy", "fuzzy")]
 )
-def test_what_is_not_searched_is_named(robot: str, method: str, named: str) -> None:
+def test_what_is_not_searched_is_named(robot: str, controller: str, named: str) -> None:
     with pytest.raises(ValueError, match=f"'{named}' is not one of"):
-        knobs_of(robot, method)
+        design_variables(robot, controller)
 
 
 def test_a_single_number_is_looked_at_all_over_its_range() -> None:
@@ -125,17 +127,19 @@ def test_a_single_number_is_looked_at_all_over_its_range() -> None:
 
 def test_the_front_is_what_no_other_beats() -> None:
     points = [(0.0, 3.0), (1.0, 1.0), (3.0, 0.0), (2.0, 2.0), (1.0, 1.0), (0.5, 3.0)]
-    assert unbeaten(points).tolist() == [True, True, True, False, True, False]
-    assert best_layers(points, 4).tolist() == [0, 1, 4, 2]
-    assert best_layers(points, 5).tolist() == [0, 1, 4, 2, 5]
-    assert best_layers(points, 99).tolist() == [0, 1, 4, 2, 5, 3]
+    assert non_dominated(points).tolist() == [True, True, True, False, True, False]
+    assert best_ranks(points, 4).tolist() == [0, 1, 4, 2]
+    assert best_ranks(points, 5).tolist() == [0, 1, 4, 2, 5]
+    assert best_ranks(points, 99).tolist() == [0, 1, 4, 2, 5, 3]
 
 
 def test_candidates_come_from_logs_without_their_means(tmp_path: Path) -> None:
-    knobs = [knob.name for knob in knobs_of("lilibot", "apnc")]
-    numbers = ",".join("0.1" for _ in knobs)
+    variables = [variable.name for variable in design_variables("lilibot", "apnc")]
+    numbers = ",".join("0.1" for _ in variables)
     lines = [
-        ",".join(["generation", "cost", "cost_mi_0.08", "cost_feet_0.08", "cost_ratio", *knobs]),
+        ",".join(
+            ["generation", "cost", "cost_mi_0.08", "cost_feet_0.08", "cost_ratio", *variables]
+        ),
         f"0,9,2.0,3.0,1.0,{numbers}",
         f"0,9,3.0,3.0,2.0,{numbers}",
         f"mean0,9,0.0,0.0,0.0,{numbers}",
@@ -157,7 +161,7 @@ def log_of(tmp_path: Path, lines: Sequence[str]) -> Path:
     ("arguments", "named"),
     [
         (("", "--robot", "cat"), "robot 'cat' is not one of lilibot, "),
-        (("", "--method", "fuzzy"), "method 'fuzzy' is not one of apnc, "),
+        (("", "--controller", "fuzzy"), "controller 'fuzzy' is not one of apnc, "),
         (("", "--begin", "search.csv"), "search.csv has no mean of a generation"),
         ((".front", "search.csv"), "search.csv has no column 'a2'; it is no log of lilibot"),
         ((".front", "nowhere.csv"), "nowhere.csv"),
@@ -177,12 +181,12 @@ def test_bad_input_is_one_line_and_exit_code_2(
     assert named in line and "Traceback" not in done.stderr
 
 
-def asked(robot: str, method: str) -> tuple[dict[str, float], list[Experiment]]:
+def asked(robot: str, controller: str) -> tuple[dict[str, float], list[Experiment]]:
     """Costs by name of walks in the robot's gait, and the experiments that were asked for."""
     legs = len(load_robot(robot).legs)
     gait = metrics.default_target(legs)
     assert gait is not None
-    runs, found = list(tasks({}, 0, robot, method)), dict[str, float]()
+    runs, found = list(tasks({}, 0, robot, controller)), dict[str, float]()
     for run in runs:
         walk = synthetic_record(run.experiment.duration, gait)
         found |= run.judge(replace(walk, experiment=run.experiment))
@@ -194,7 +198,7 @@ def test_four_legs_are_asked_for_all() -> None:
     found, runs = asked("lilibot", "apnc")
     bands = BANDS[4]
     assert [run.mi for run in runs[: len(bands)]] == [band[0] for band in bands]
-    assert [run.method for run in runs[: len(bands)]].count("apc") == 1
+    assert [run.controller for run in runs[: len(bands)]].count("apc") == 1
     conditions = [run.conditions for run in runs]
     assert conditions.count("C3") == conditions.count("C4") == 1
     assert [run.rate for run in runs if run.rate != 60.0] == [25.0]
@@ -213,7 +217,7 @@ def test_six_legs_have_bands_of_their_own_and_no_payload_or_rate() -> None:
 
 def test_a_baseline_is_asked_for_no_memory() -> None:
     found, runs = asked("lilibot", "tegotae")
-    assert {run.method for run in runs} == {"tegotae"}
+    assert {run.controller for run in runs} == {"tegotae"}
     assert {"C3", "C4"} < {run.conditions for run in runs}
     assert found["memory"] == found["steering"] == found["blocked"] == 0.0
 
@@ -234,18 +238,20 @@ def test_a_run_that_fell_costs_the_most_and_has_no_speed() -> None:
 def test_a_candidate_that_is_no_robot_costs_the_most_and_spoils_no_other() -> None:
     sound = {"gamma_tegotae": 0.1}
     broken = {"gamma_tegotae": 0.1, "servo.stiffness": -1.0}
-    alone = costs_of([sound], 1, method="tegotae")
-    assert costs_of([broken, sound], 1, method="tegotae") == [(FAILED,) * len(names(4)), *alone]
+    alone = costs_of([sound], 1, controller="tegotae")
+    assert costs_of([broken, sound], 1, controller="tegotae") == [(FAILED,) * len(names(4)), *alone]
 
 
 def test_figures_of_the_front_are_those_of_the_walks() -> None:
     """Of walks that are a trot but for MI 0.06, at 1 MI m/s: 8 of 9 strict, 0.4 / 0.15 in speed."""
-    rows = []
+    results = []
     for experiment in walks_of({}, "lilibot", 2):
         assert isinstance(experiment.mi, float)
         phases = (0.0, 0.0, 0.0) if experiment.mi == 0.06 else TROT
-        rows.append(row_of(synthetic_record(experiment.duration, phases, speed=experiment.mi)))
-    found = measured(rows, 2)
+        results.append(
+            result_of(synthetic_record(experiment.duration, phases, speed=experiment.mi))
+        )
+    found = measured(results, 2)
     assert found["strict"] == pytest.approx(8 / 9) and found["payload"] == 1.0
     assert found["ratio"] == pytest.approx(0.4 / 0.15, rel=1e-3)
     assert found["turn_deg"] == pytest.approx(0.0, abs=1e-6)
@@ -254,9 +260,9 @@ def test_figures_of_the_front_are_those_of_the_walks() -> None:
 
 
 def test_the_front_walks_every_candidate_with_and_without_payload(tmp_path: Path) -> None:
-    knobs = [knob.name for knob in knobs_of("lilibot", "apnc")]
-    numbers = ",".join(str(start(LILIBOT, name)) for name in knobs)
-    log = log_of(tmp_path, [",".join(["generation", *knobs]), f"0,{numbers}"])
+    variables = [variable.name for variable in design_variables("lilibot", "apnc")]
+    numbers = ",".join(str(start(LILIBOT, name)) for name in variables)
+    log = log_of(tmp_path, [",".join(["generation", *variables]), f"0,{numbers}"])
     front([log], tmp_path / "front.csv", "lilibot", 1, 1, 2)
     with (tmp_path / "front.csv").open(newline="") as file:
         shipped, same = csv.DictReader(file)
@@ -268,9 +274,9 @@ def test_the_front_walks_every_candidate_with_and_without_payload(tmp_path: Path
 def test_the_front_is_marked_and_an_interrupt_keeps_what_has_walked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    knobs = [knob.name for knob in knobs_of("lilibot", "apnc")]
-    head = ",".join(["generation", "cost", "cost_mi_0.08", "cost_feet_0.08", *knobs])
-    numbers = ",".join("0.1" for _ in knobs)
+    variables = [variable.name for variable in design_variables("lilibot", "apnc")]
+    head = ",".join(["generation", "cost", "cost_mi_0.08", "cost_feet_0.08", *variables])
+    numbers = ",".join("0.1" for _ in variables)
     log = log_of(tmp_path, [head, *(f"0,9,{n}.0,{-n}.0,{numbers}" for n in range(3))])
 
     def walked(
@@ -284,10 +290,12 @@ def test_the_front_is_marked_and_an_interrupt_keeps_what_has_walked(
     with pytest.raises(KeyboardInterrupt):
         front([log], tmp_path / "front.csv", "lilibot", 3, 1, 1)
     with (tmp_path / "front.csv").open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    assert [row["lift_mm"] for row in rows] == ["5", "6", "4"]
-    assert [row["front"] for row in rows] == ["0", "1", "0"] and rows[0]["candidate"] == "shipped"
-    assert float(rows[0]["a2"]) == start(LILIBOT, "a2")
+        results = list(csv.DictReader(file))
+    assert [result["lift_mm"] for result in results] == ["5", "6", "4"]
+    assert [result["front"] for result in results] == ["0", "1", "0"] and results[0][
+        "candidate"
+    ] == "shipped"
+    assert float(results[0]["a2"]) == start(LILIBOT, "a2")
 
 
 def walk(phases: Sequence[float] = TROT, speed: float = 0.1) -> Record:

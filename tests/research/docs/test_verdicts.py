@@ -7,8 +7,8 @@ from research.docs.verdicts import GROUPS, SEEDS, table, trials_of
 
 def test_every_group_has_the_grid_of_a_study_with_seeds_of_its_own() -> None:
     trials = trials_of("damage")
-    for method, count in (("apnc", SEEDS), ("tegotae", SEEDS // 2)):
-        seeds = sorted(t.cell["seed"] for t in trials if t.cell["method"] == method)
+    for controller, count in (("apnc", SEEDS), ("tegotae", SEEDS // 2)):
+        seeds = sorted(t.cell["seed"] for t in trials if t.cell["controller"] == controller)
         assert seeds == [SEEDS * group + seed for group in range(GROUPS) for seed in range(count)]
         assert all(t.experiment.seed == t.cell["seed"] for t in trials)
 

@@ -14,7 +14,7 @@ from apnc_core.variables import variables_of
 from apnc_plant.robot import Leg, RobotDescription, load_robot
 
 
-class Knob(NamedTuple):
+class DesignVariable(NamedTuple):
     """One number that is searched: parameter of the controller, or ``part.field`` of the robot."""
 
     name: str
@@ -28,7 +28,7 @@ class Knob(NamedTuple):
             return float(self.low * (self.high / self.low) ** x)
         return self.low + x * (self.high - self.low)
 
-    def place(self, value: float) -> float:
+    def scaled(self, value: float) -> float:
         """``x`` of a value."""
         if self.log:
             return math.log(value / self.low) / math.log(self.high / self.low)
@@ -36,100 +36,102 @@ class Knob(NamedTuple):
 
 
 Candidate = Mapping[str, float]
-"""Values by the names of their knobs."""
+"""Values by the names of their variables."""
 
 _UNKNOWN: Final = (
-    Knob("servo.reflected_inertia", 0.0075, 0.02, log=True),
-    Knob("contact.stiffness", 3e3, 4e4, log=True),
-    Knob("contact.damping", 300.0, 800.0, log=True),
-    Knob("sensor.delay", 0.005, 0.07),
+    DesignVariable("servo.reflected_inertia", 0.0075, 0.02, log=True),
+    DesignVariable("contact.stiffness", 3e3, 4e4, log=True),
+    DesignVariable("contact.damping", 300.0, 800.0, log=True),
+    DesignVariable("sensor.delay", 0.005, 0.07),
 )
 """What is published of no robot."""
 
 _BODY: Final = (
-    Knob("servo.stiffness", 14.0, 24.0, log=True),
-    Knob("servo.damping", 0.7, 1.1, log=True),
+    DesignVariable("servo.stiffness", 14.0, 24.0, log=True),
+    DesignVariable("servo.damping", 0.7, 1.1, log=True),
     *_UNKNOWN,
 )
 
-_POSE: Final = (Knob("b1", -0.6, 0.0), Knob("b2", -0.4, 0.4))
+_POSE: Final = (DesignVariable("b1", -0.6, 0.0), DesignVariable("b2", -0.4, 0.4))
 
 _LEARNING: Final = (
-    Knob("B_f", 0.02, 0.5, log=True),
-    Knob("B_s", 1e-4, 1e-2, log=True),
-    Knob("turn_gain", 0.4, 1.0),
+    DesignVariable("B_f", 0.02, 0.5, log=True),
+    DesignVariable("B_s", 1e-4, 1e-2, log=True),
+    DesignVariable("turn_gain", 0.4, 1.0),
 )
 
 _MANY_LEGS: Final = (
-    Knob("a1", 0.1, 0.22),
-    Knob("a2", 0.1, 0.25),
-    Knob("b1", -0.3, 0.2),
-    Knob("b2", -0.3, 0.2),
-    Knob("outer.y", 0.03, 0.10),
-    Knob("inner.y", 0.07, 0.15),
-    Knob("inner.z", -0.004, 0.004),
-    Knob("trunk.com_x", -0.05, 0.05),
-    Knob("trunk.com_z", -0.016, 0.02),
-    Knob("trunk.com_side_offset", 0.002, 0.02),
-    Knob("servo.stiffness", 14.0, 80.0, log=True),
-    Knob("servo.damping", 0.7, 2.5, log=True),
+    DesignVariable("a1", 0.1, 0.22),
+    DesignVariable("a2", 0.1, 0.25),
+    DesignVariable("b1", -0.3, 0.2),
+    DesignVariable("b2", -0.3, 0.2),
+    DesignVariable("outer.y", 0.03, 0.10),
+    DesignVariable("inner.y", 0.07, 0.15),
+    DesignVariable("inner.z", -0.004, 0.004),
+    DesignVariable("trunk.com_x", -0.05, 0.05),
+    DesignVariable("trunk.com_z", -0.016, 0.02),
+    DesignVariable("trunk.com_side_offset", 0.002, 0.02),
+    DesignVariable("servo.stiffness", 14.0, 80.0, log=True),
+    DesignVariable("servo.damping", 0.7, 2.5, log=True),
     *_UNKNOWN,
-    Knob("B_f", 0.1, 1.0, log=True),
-    Knob("B_s", 1e-4, 2e-2, log=True),
-    Knob("kappa_hold", 100.0, 500.0, log=True),
-    Knob("o1_start", 0.005, 0.2, log=True),
+    DesignVariable("B_f", 0.1, 1.0, log=True),
+    DesignVariable("B_s", 1e-4, 2e-2, log=True),
+    DesignVariable("kappa_hold", 100.0, 500.0, log=True),
+    DesignVariable("o1_start", 0.005, 0.2, log=True),
 )
 
-KNOBS: Final[Mapping[str, tuple[Knob, ...]]] = {
+DESIGN: Final[Mapping[str, tuple[DesignVariable, ...]]] = {
     "lilibot": (
-        Knob("a2", 0.12, 0.20),
+        DesignVariable("a2", 0.12, 0.20),
         *_POSE,
-        Knob("trunk.com_x", 0.0, 0.06),
-        Knob("trunk.com_z", -0.016, 0.02),
-        Knob("trunk.com_side_offset", 0.0, 0.006),
+        DesignVariable("trunk.com_x", 0.0, 0.06),
+        DesignVariable("trunk.com_z", -0.016, 0.02),
+        DesignVariable("trunk.com_side_offset", 0.0, 0.006),
         *_BODY,
         *_LEARNING,
     ),
-    "hexapod": (*_MANY_LEGS, Knob("inner.x", -0.03, 0.03)),
+    "hexapod": (*_MANY_LEGS, DesignVariable("inner.x", -0.03, 0.03)),
     "octopod": _MANY_LEGS,
 }
 """By robot."""
 
-OWN: Final[Mapping[str, Knob]] = {
-    "tegotae": Knob("gamma_tegotae", 0.004, 0.4, log=True),
-    "phase_reset": Knob("grf_reset", 0.05, 1.6, log=True),
+OWN: Final[Mapping[str, DesignVariable]] = {
+    "tegotae": DesignVariable("gamma_tegotae", 0.004, 0.4, log=True),
+    "phase_reset": DesignVariable("grf_reset", 0.05, 1.6, log=True),
 }
 """The free number of each baseline."""
 
 
-def knobs_of(robot: str, method: str, *, own_robot: bool = False) -> tuple[Knob, ...]:
+def design_variables(
+    robot: str, controller: str, *, own_robot: bool = False
+) -> tuple[DesignVariable, ...]:
     """What is searched for a controller.
 
     Args:
         robot: name of the robot.
-        method: name of the controller; of a baseline its own number.
+        controller: name of the controller; of a baseline its own number.
         own_robot: for a baseline the pose and the robot, too, as they are for APNC.
 
     Raises:
-        ValueError: a robot or a method that is not searched.
+        ValueError: a robot or a controller that is not searched.
     """
-    if robot not in KNOBS:
-        raise ValueError(f"robot '{robot}' is not one of {', '.join(KNOBS)}")
-    if method == "apnc":
-        return KNOBS[robot]
-    if method not in OWN:
-        raise ValueError(f"method '{method}' is not one of apnc, {', '.join(OWN)}")
-    learning = {knob.name for knob in _LEARNING}
-    shared = [knob for knob in KNOBS[robot] if own_robot and knob.name not in learning]
-    return (OWN[method], *shared)
+    if robot not in DESIGN:
+        raise ValueError(f"robot '{robot}' is not one of {', '.join(DESIGN)}")
+    if controller == "apnc":
+        return DESIGN[robot]
+    if controller not in OWN:
+        raise ValueError(f"controller '{controller}' is not one of apnc, {', '.join(OWN)}")
+    learning = {variable.name for variable in _LEARNING}
+    shared = [variable for variable in DESIGN[robot] if own_robot and variable.name not in learning]
+    return (OWN[controller], *shared)
 
 
 def start(robot: RobotDescription, name: str) -> float:
-    """The shipped value of a knob."""
+    """The shipped value of a variable."""
     if "." not in name:
         return float(robot.controller.get(name, getattr(Parameters(), name)))
     if name in ("trunk.com_x", "trunk.com_z"):
-        return robot.trunk.body.com["xyz".index(name[-1])]
+        return robot.trunk.com["xyz".index(name[-1])]
     part, field = name.split(".")
     if part in ("inner", "outer"):
         leg = next(leg for leg in robot.legs if _is_outer(robot, leg) == (part == "outer"))
@@ -140,16 +142,16 @@ def start(robot: RobotDescription, name: str) -> float:
 def built_robot(candidate: Candidate, name: str = "lilibot") -> RobotDescription:
     """A robot with the physical unknowns of a candidate."""
     robot = load_robot(name)
-    for knob, value in candidate.items():
-        part, _, field = knob.partition(".")
-        if knob in ("trunk.com_x", "trunk.com_z"):
-            com = list(robot.trunk.body.com)
+    for variable, value in candidate.items():
+        part, _, field = variable.partition(".")
+        if variable in ("trunk.com_x", "trunk.com_z"):
+            com = list(robot.trunk.com)
             com["xyz".index(field[-1])] = value
-            robot = changed(robot, "trunk.body.com", constant(tuple(com)))
+            robot = changed(robot, "trunk.com", constant(tuple(com)))
         elif part in ("inner", "outer"):
             robot = _stood(robot, part == "outer", "xyz".index(field), value)
         elif field:
-            robot = changed(robot, knob, constant(value))
+            robot = changed(robot, variable, constant(value))
     return robot
 
 

@@ -1,4 +1,4 @@
-"""The engine: rows that are kept, run again, and the same wherever they run."""
+"""The engine: results that are kept, run again, and the same wherever they run."""
 
 from __future__ import annotations
 
@@ -18,16 +18,17 @@ from typing import Any
 
 import pytest
 
+from apnc import controllers
+from apnc.controllers import CONTROLLERS
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
-from apnc.studies import contenders, engine, store
-from apnc.studies.contenders import CONTENDERS
-from apnc.studies.engine import grid_of, run_study, run_trial, run_trials
+from apnc.studies import runner, store
 from apnc.studies.registry import STUDIES
-from apnc.studies.rows import Row
-from apnc.studies.store import Store, place_of
+from apnc.studies.results import Result, id_of
+from apnc.studies.runner import grid_of, run_study, run_trial, run_trials
+from apnc.studies.store import Store
 from apnc.studies.study import Study, Trial, load
-from apnc.studies.workers import CHUNK, chunks_of, rows_of
+from apnc.studies.workers import CHUNK, chunks_of, results_of
 from apnc_plant.robot import ROBOTS
 from build_fmu.build import host_fmu
 from research.registry import STUDIES as RESEARCH
@@ -35,29 +36,29 @@ from research.registry import STUDIES as RESEARCH
 SHORT: dict[str, Any] = {"trials": 1, "duration": 1.0, "chosen": {"mi": [0.08]}}
 
 
-def quick(trial: Trial) -> Row:
-    """A row without a run."""
+def quick(trial: Trial) -> Result:
+    """A result without a run."""
     rest = {"version": "0", "fell": False, "end": "complete", "error": ""}
-    return {"study": trial.study, "key": trial.place[-1], **trial.cell, **rest}
+    return {"study": trial.study, "key": trial.id.key, **trial.cell, **rest}
 
 
-Made = Callable[[Trial], Row]
+Made = Callable[[Trial], Result]
 
 
 def without_runs(monkeypatch: pytest.MonkeyPatch, made: Made = quick) -> list[str]:
-    """Rows are made without runs from now on; the keys of the trials that were asked for."""
+    """Results are made without runs from now on; the keys of the trials that were asked for."""
     asked: list[str] = []
 
     def walk(
         trials: Sequence[Trial], *, workers: int, stop: Callable[[], bool], series: Path | None
-    ) -> Iterator[Row]:
+    ) -> Iterator[Result]:
         for trial in trials:
             if stop():
                 return
-            asked.append(trial.place[-1])
+            asked.append(trial.id.key)
             yield made(trial)
 
-    monkeypatch.setattr(engine, "run_trials", walk)
+    monkeypatch.setattr(runner, "run_trials", walk)
     return asked
 
 
@@ -66,10 +67,10 @@ def no_runs(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return without_runs(monkeypatch)
 
 
-def lines(folder: Path) -> list[Row]:
-    """The rows on disk, without the wall time that stands beside each."""
+def lines(folder: Path) -> list[Result]:
+    """The results on disk, without the wall time that stands beside each."""
     found = [json.loads(line) for line in (folder / "trials.jsonl").read_text().splitlines()]
-    assert all(row.pop("wall_s") >= 0.0 for row in found)
+    assert all(result.pop("wall_s") >= 0.0 for result in found)
     return found
 
 
@@ -77,12 +78,12 @@ def lines(folder: Path) -> list[Row]:
 
 
 def test_a_trial_is_a_pure_function_of_its_experiment() -> None:
-    (trial,) = grid_of("mi", methods=["apnc"], **SHORT)
-    row = run_trial(trial)
-    assert row == run_trial(trial) and json.dumps(row, allow_nan=False)
+    (trial,) = grid_of("mi", controllers=["apnc"], **SHORT)
+    result = run_trial(trial)
+    assert result == run_trial(trial) and json.dumps(result, allow_nan=False)
     other = replace(trial, experiment=replace(trial.experiment, seed=1))
-    assert run_trial(other)["key"] != row["key"]
-    assert run_trial(other)["turned_deg"] != row["turned_deg"]
+    assert run_trial(other)["key"] != result["key"]
+    assert run_trial(other)["turned_deg"] != result["turned_deg"]
 
 
 def exchanged(experiment: Experiment, path: Path, content: bytes) -> Experiment:
@@ -93,12 +94,12 @@ def exchanged(experiment: Experiment, path: Path, content: bytes) -> Experiment:
     return changed
 
 
-def test_a_trial_that_raises_is_a_row_with_its_error(tmp_path: Path) -> None:
-    (trial,) = grid_of("mi", methods=["apnc"], **SHORT)
+def test_a_trial_that_raises_is_a_result_with_its_error(tmp_path: Path) -> None:
+    (trial,) = grid_of("mi", controllers=["apnc"], **SHORT)
     spoilt = exchanged(trial.experiment, tmp_path / "own.fmu", b"no zip")
-    row = run_trial(replace(trial, experiment=spoilt))
-    assert row["error"].startswith("FmuError: ") and "\n" not in row["error"]
-    assert row["end"] == "error" and row["mi"] == 0.08
+    result = run_trial(replace(trial, experiment=spoilt))
+    assert result["error"].startswith("FmuError: ") and "\n" not in result["error"]
+    assert result["end"] == "error" and result["mi"] == 0.08
 
 
 @pytest.mark.parametrize("own", ["exudyn", "compiled"])
@@ -106,7 +107,7 @@ def test_trials_that_raise_spoil_no_other(
     own: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """One with no controller, one with that of other legs, one whose figures cannot be measured."""
-    trials = grid_of("mi", 4, methods=["apnc"], chosen={"mi": [0.08]}, duration=0.5)
+    trials = grid_of("mi", 4, controllers=["apnc"], chosen={"mi": [0.08]}, duration=0.5)
     sound, fails, none, six = (replace(t.experiment, engine=own) for t in trials)
     none = exchanged(none, tmp_path / "none.fmu", b"no zip")
     six = exchanged(six, tmp_path / "six.fmu", host_fmu(6).read_bytes())
@@ -114,14 +115,14 @@ def test_trials_that_raise_spoil_no_other(
         replace(t, experiment=e) for t, e in zip(trials, [sound, fails, none, six], strict=True)
     ]
 
-    def measured(study: str, record: Record) -> Row:
+    def measured(study: str, record: Record) -> Result:
         if record.experiment.seed == fails.seed:
             raise ZeroDivisionError("moo")
         return {"error": ""}
 
-    monkeypatch.setattr(engine, "measured", measured)
-    rows = {row["key"]: row["error"] for row in run_trials(every, workers=2)}
-    found = [rows[trial.place[-1]] for trial in every]
+    monkeypatch.setattr(runner, "measured", measured)
+    results = {result["key"]: result["error"] for result in run_trials(every, workers=2)}
+    found = [results[trial.id.key] for trial in every]
     assert found[:2] == ["", "ZeroDivisionError: moo"]
     assert found[2].startswith("FmuError: ") and "none.fmu" in found[2]
     assert found[3].startswith("ValueError: ") and "6 legs" in found[3]
@@ -130,43 +131,49 @@ def test_trials_that_raise_spoil_no_other(
 def test_numbers_that_are_not_finite_are_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     measure = {"a": float("nan"), "b": float("inf"), "c": 1.0, "d": True}
     study = Study("mi", lambda: None, measure=lambda record: measure)  # type: ignore[arg-type, return-value]
-    monkeypatch.setattr(engine, "load", lambda name: study)
+    monkeypatch.setattr(runner, "load", lambda name: study)
     from records import synthetic_record  # noqa: PLC0415
 
-    row = engine.measured("mi", synthetic_record(5.0))
-    assert [row[name] for name in "abcd"] == [None, None, 1.0, True]
+    result = runner.measured("mi", synthetic_record(5.0))
+    assert [result[name] for name in "abcd"] == [None, None, 1.0, True]
 
 
 # --- a study -----------------------------------------------------------------------------------
 
 
-def test_without_a_folder_the_rows_come_back_and_no_file_is_left(
+def test_without_a_folder_the_results_come_back_and_no_file_is_left(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, no_runs: list[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    rows = run_study("mi", methods=["apnc"], trials=2)
-    assert [(row["mi"], row["seed"]) for row in rows[:3]] == [(0.04, 0), (0.04, 1), (0.06, 0)]
-    assert len(rows) == 26 and list(tmp_path.iterdir()) == []
+    results = run_study("mi", controllers=["apnc"], trials=2)
+    assert [(result["mi"], result["seed"]) for result in results[:3]] == [
+        (0.04, 0),
+        (0.04, 1),
+        (0.06, 0),
+    ]
+    assert len(results) == 26 and list(tmp_path.iterdir()) == []
 
 
 def test_progress_counts_trials_and_simulated_time(no_runs: list[str]) -> None:
     told: list[tuple[int, int, float, float]] = []
     run_study(
-        "mi", methods=["apnc"], trials=2, chosen={"mi": [0.1]},
+        "mi", controllers=["apnc"], trials=2, chosen={"mi": [0.1]},
         progress=lambda *numbers: told.append(numbers),
     )  # fmt: skip
     assert told == [(0, 2, 0.0, 90.0), (1, 2, 45.0, 90.0), (2, 2, 90.0, 90.0)]
 
 
-def test_the_folder_holds_rows_table_report_and_claims(tmp_path: Path, no_runs: list[str]) -> None:
-    rows = run_study("mi", output=tmp_path / "new" / "folder", trials=1)
+def test_the_folder_holds_results_table_report_and_claims(
+    tmp_path: Path, no_runs: list[str]
+) -> None:
+    results = run_study("mi", output=tmp_path / "new" / "folder", trials=1)
     folder = tmp_path / "new" / "folder"
     names = {path.name for path in folder.iterdir()}
     assert names == {"trials.jsonl", "trials.csv", "report.html", "claims.md", "mi.md"}
     with (folder / "trials.csv").open(newline="") as file:
         table = list(csv.DictReader(file))
-    assert [(r["key"], float(r["mi"])) for r in table] == [(r["key"], r["mi"]) for r in rows]
-    assert lines(folder) == rows
+    assert [(r["key"], float(r["mi"])) for r in table] == [(r["key"], r["mi"]) for r in results]
+    assert lines(folder) == results
 
 
 def test_a_folder_with_trials_is_not_overwritten(tmp_path: Path, no_runs: list[str]) -> None:
@@ -186,7 +193,7 @@ def test_stopped_and_resumed_is_the_same_as_run_through(tmp_path: Path, no_runs:
     run_study("damage", output=tmp_path / "a", trials=2, resume=True)
     resumed = Counter(no_runs)
     every = run_study("damage", output=tmp_path / "b", trials=2)
-    # one experiment may stand in two places: a contender's best setting can be the paper's
+    # one experiment may stand in two places: a controller's best setting can be the paper's
     assert resumed + Counter(r["key"] for r in part) == Counter(r["key"] for r in every)
     a, b = ((tmp_path / name / "trials.csv").read_text() for name in "ab")
     assert a == b
@@ -200,36 +207,38 @@ def test_the_wall_time_is_that_of_all_runs_of_a_study(
     stops = iter([False, True])
     run_study("damage", output=tmp_path, trials=1, stop=lambda: next(stops))
     assert "in 1.0 min" in (tmp_path / "report.html").read_text()
-    rows = run_study("damage", output=tmp_path, trials=1, resume=True)
-    assert f"in {len(rows)}.0 min" in (tmp_path / "report.html").read_text()
-    assert not any("wall_s" in row for row in csv.DictReader((tmp_path / "trials.csv").open()))
+    results = run_study("damage", output=tmp_path, trials=1, resume=True)
+    assert f"in {len(results)}.0 min" in (tmp_path / "report.html").read_text()
+    assert not any(
+        "wall_s" in result for result in csv.DictReader((tmp_path / "trials.csv").open())
+    )
 
 
-def test_resume_runs_rows_with_an_error_again(
+def test_resume_runs_results_with_an_error_again(
     tmp_path: Path, no_runs: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(trial: Trial) -> Row:
-        error = "RuntimeError: moo" if trial.cell["method"] == "apnc" else ""
+    def broken(trial: Trial) -> Result:
+        error = "RuntimeError: moo" if trial.cell["controller"] == "apnc" else ""
         return quick(trial) | {"error": error, "end": "error" if error else "complete"}
 
     with monkeypatch.context() as context:
         without_runs(context, broken)
         first = run_study("damage", output=tmp_path, trials=1)
-    assert [row["error"] for row in first] == ["RuntimeError: moo", *[""] * 4]
-    rows = run_study("damage", output=tmp_path, trials=1, resume=True)
+    assert [result["error"] for result in first] == ["RuntimeError: moo", *[""] * 4]
+    results = run_study("damage", output=tmp_path, trials=1, resume=True)
     assert no_runs == [first[0]["key"]]
-    assert [row["error"] for row in rows] == [""] * 5
+    assert [result["error"] for result in results] == [""] * 5
     assert len(lines(tmp_path)) == 6  # the last line of a trial counts
 
 
-def test_resume_does_not_keep_rows_of_another_robot(
+def test_resume_does_not_keep_results_of_another_robot(
     tmp_path: Path, no_runs: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = tmp_path / "own.toml"
     text = (ROBOTS / "lilibot.toml").read_text()
     study = load(STUDIES["damage"])
     own = replace(study, experiment=lambda **cell: study.experiment(robot=str(file), **cell))
-    monkeypatch.setattr(engine, "load", lambda name: own)
+    monkeypatch.setattr(runner, "load", lambda name: own)
     file.write_text(text)
     before = run_study("damage", output=tmp_path / "out", trials=1)
     again = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
@@ -238,7 +247,7 @@ def test_resume_does_not_keep_rows_of_another_robot(
     file.write_text(text.replace(friction, "friction = 0.33"))
     after = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
     assert len(no_runs) == 10
-    assert not {row["key"] for row in before} & {row["key"] for row in after}
+    assert not {result["key"] for result in before} & {result["key"] for result in after}
 
 
 def test_an_error_in_the_loop_loses_nothing(tmp_path: Path, no_runs: list[str]) -> None:
@@ -251,21 +260,21 @@ def test_an_error_in_the_loop_loses_nothing(tmp_path: Path, no_runs: list[str]) 
     assert len(lines(tmp_path)) == 2
 
 
-def test_labels_of_one_experiment_are_rows_of_their_own(
+def test_labels_of_one_experiment_are_results_of_their_own(
     monkeypatch: pytest.MonkeyPatch, no_runs: list[str]
 ) -> None:
     """The best setting of a baseline may be the paper's."""
-    paper = CONTENDERS["tegotae"].settings_in("damage")
-    best = CONTENDERS["tegotae_best"]._replace(settings=paper)
-    monkeypatch.setattr(contenders, "CONTENDERS", {**CONTENDERS, "tegotae_best": best})
-    rows = run_study("damage", trials=1, methods=["tegotae", "tegotae_best"])
-    assert [row["method"] for row in rows] == ["tegotae", "tegotae_best"]
-    assert rows[0]["key"] == rows[1]["key"]
+    paper = CONTROLLERS["tegotae"].settings_in("damage")
+    best = CONTROLLERS["tegotae_best"]._replace(settings=paper)
+    monkeypatch.setattr(controllers, "CONTROLLERS", {**CONTROLLERS, "tegotae_best": best})
+    results = run_study("damage", trials=1, controllers=["tegotae", "tegotae_best"])
+    assert [result["controller"] for result in results] == ["tegotae", "tegotae_best"]
+    assert results[0]["key"] == results[1]["key"]
 
 
 def test_series_are_kept_on_request(tmp_path: Path) -> None:
-    (row,) = run_study("mi", methods=["apnc"], output=tmp_path, series=True, **SHORT)
-    series = tmp_path / "series" / f"mi-apnc-{row['key']}.csv"
+    (result,) = run_study("mi", controllers=["apnc"], output=tmp_path, series=True, **SHORT)
+    series = tmp_path / "series" / f"mi-apnc-{result['key']}.csv"
     assert len(series.read_text().splitlines()) == 61
     with pytest.raises(ValueError, match="series are kept in a folder"):
         run_study("mi", series=True)
@@ -277,19 +286,19 @@ def test_no_workers_are_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "out").exists()
 
 
-KINDS: dict[str, Any] = {"trials": 5, "methods": ["apnc", "apc"], "duration": 2.0}
+KINDS: dict[str, Any] = {"trials": 5, "controllers": ["apnc", "apc"], "duration": 2.0}
 """Trials of two kinds, of which one fills no batch."""
 
 
-def test_rows_are_those_of_single_runs_whatever_walks_beside_them(tmp_path: Path) -> None:
+def test_results_are_those_of_single_runs_whatever_walks_beside_them(tmp_path: Path) -> None:
     asked = {**KINDS, "chosen": {"rate": [60.0, 30.0]}}
     here = run_study("rate", **asked)
     assert here == run_study("rate", **asked, workers=3)
     alone = run_study("rate", **{**asked, "trials": 3}, output=tmp_path)
-    assert [row for row in here if row["seed"] < 3] == alone
+    assert [result for result in here if result["seed"] < 3] == alone
     assert here == run_study("rate", **asked, output=tmp_path, resume=True)
     singly = [run_trial(trial) for trial in grid_of("rate", **asked)]
-    assert here == singly and all(row["error"] == "" for row in here)
+    assert here == singly and all(result["error"] == "" for result in here)
 
 
 def test_studies_of_the_product_walk_in_c(tmp_path: Path, no_runs: list[str]) -> None:
@@ -303,10 +312,10 @@ def test_other_engines_walk_in_processes_and_say_what_they_need(
 ) -> None:
     asked: dict[str, Any] = {"trials": 2, "duration": 0.5}
     asked["chosen"] = {"engine": ["compiled", "exudyn"], "mi": [0.08]}
-    rows = run_study("engines", **asked, studies=RESEARCH, workers=2)
-    assert rows == run_study("engines", **asked, studies=RESEARCH)
-    assert [row["engine"] for row in rows] == ["compiled"] * 2 + ["exudyn"] * 2
-    assert all(row["error"] == "" for row in rows)
+    results = run_study("engines", **asked, studies=RESEARCH, workers=2)
+    assert results == run_study("engines", **asked, studies=RESEARCH)
+    assert [result["engine"] for result in results] == ["compiled"] * 2 + ["exudyn"] * 2
+    assert all(result["error"] == "" for result in results)
     monkeypatch.setitem(sys.modules, "loky", None)
     with pytest.raises(ValueError, match=r"engine exudyn needs the extra 'study': pip install"):
         run_study("engines", **asked, studies=RESEARCH, workers=2)
@@ -326,53 +335,55 @@ def test_no_further_chunk_begins_after_a_stop() -> None:
     trials = grid_of("engines", 6, chosen={"engine": ["exudyn"], "mi": [0.08]}, studies=RESEARCH)
     begun: list[Trial] = []
 
-    def walk(trials: Sequence[Trial], *, workers: int, stop: Callable[[], bool]) -> Iterator[Row]:
+    def walk(
+        trials: Sequence[Trial], *, workers: int, stop: Callable[[], bool]
+    ) -> Iterator[Result]:
         begun.extend(trials)
         return map(quick, trials)
 
     with ThreadPoolExecutor(2) as executor:
-        rows = rows_of(
+        results = results_of(
             trials, walk, executor, workers=2, cluster=False, stop=lambda: len(begun) >= 2
         )
-        assert len(list(rows)) == len(begun) < 6
+        assert len(list(results)) == len(begun) < 6
 
 
-# --- rows on disk ------------------------------------------------------------------------------
+# --- results on disk ------------------------------------------------------------------------------
 
 
-def row(key: str, **more: Any) -> Row:
-    return {"study": "mi", "method": "apnc", "key": key, **more}
+def result(key: str, **more: Any) -> Result:
+    return {"study": "mi", "controller": "apnc", "key": key, **more}
 
 
 def test_a_torn_line_is_dropped_and_the_rest_kept(tmp_path: Path) -> None:
     path = tmp_path / "trials.jsonl"
     kept = Store(path)
-    kept.add(row("a", x=1))
-    kept.add(row("b", x=2))
+    kept.add(result("a", x=1))
+    kept.add(result("b", x=2))
     kept.close()
     path.write_bytes(path.read_bytes()[:-4])
     kept = Store(path)
-    assert kept.rows == {("mi", "apnc", "a"): row("a", x=1)}
-    kept.add(row("b", x=2))
+    assert kept.results == {("mi", "apnc", "a"): result("a", x=1)}
+    kept.add(result("b", x=2))
     kept.close()
     assert [json.loads(line)["key"] for line in path.read_text().splitlines()] == ["a", "b"]
 
 
 def test_a_damaged_line_costs_its_own_trial_only(tmp_path: Path) -> None:
     path = tmp_path / "trials.jsonl"
-    whole = json.dumps(row("b"))
+    whole = json.dumps(result("b"))
     path.write_text(f'{{"study": "mi"\n"text"\n{{"key": "a"}}\n{whole}\n')
     kept = Store(path)
-    assert list(kept.rows) == [("mi", "apnc", "b")]
+    assert list(kept.results) == [("mi", "apnc", "b")]
     kept.close()
 
 
-def test_a_row_is_in_the_file_at_once(tmp_path: Path) -> None:
+def test_a_result_is_in_the_file_at_once(tmp_path: Path) -> None:
     kept = Store(tmp_path / "t.jsonl")
-    kept.add(row("a"))
+    kept.add(result("a"))
     text = (tmp_path / "t.jsonl").read_text()
     found = json.loads(text)
-    assert text.endswith("}\n") and found.pop("wall_s") >= 0.0 and found == row("a")
+    assert text.endswith("}\n") and found.pop("wall_s") >= 0.0 and found == result("a")
     kept.close()
 
 
@@ -384,7 +395,7 @@ def test_the_disk_is_waited_for_once_a_second_and_at_the_end(
     monkeypatch.setattr(store.os, "fsync", lambda file: waited.append(now[0]))
     with Store(tmp_path / "t.jsonl") as kept:
         for now[0] in (0.5, 0.9, 1.1, 1.2, 2.0, 2.3, 2.4):
-            kept.add(row("a"))
+            kept.add(result("a"))
     assert waited == [1.1, 2.3, 2.4]
 
 
@@ -392,12 +403,12 @@ def test_the_disk_is_waited_for_once_a_second_and_at_the_end(
 def test_a_file_that_another_study_writes_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "trials.jsonl"
     with Store(path) as kept:
-        kept.add(row("a"))
+        kept.add(result("a"))
         with pytest.raises(ValueError, match=r"trials\.jsonl is being written by another study"):
             Store(path)
-        kept.add(row("b"))
+        kept.add(result("b"))
     with Store(path) as again:
-        assert [key for _, _, key in again.rows] == ["a", "b"]
+        assert [key for _, _, key in again.results] == ["a", "b"]
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
@@ -405,14 +416,14 @@ def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
     kept = Store(tmp_path / "t.jsonl")
     kept._file = Path("/dev/full").open("ab")  # noqa: SIM115
     with pytest.raises(OSError, match="No space left on device: '/dev/full'"):
-        kept.add(row("a"))
+        kept.add(result("a"))
 
 
 # --- kill, Dask --------------------------------------------------------------------------------
 
 KILLED = """
 import sys
-from apnc.studies.engine import run_study
+from apnc.studies.runner import run_study
 run_study("damage", trials=400, duration=10.0, workers=1, output=sys.argv[1])
 """
 
@@ -431,9 +442,9 @@ def test_a_killed_study_resumes_without_loss_or_repetition(tmp_path: Path) -> No
     path.write_text("".join(x for x in path.read_text().splitlines(True) if x.endswith("}\n")))
     before = lines(tmp_path)
     assert 2 <= len(before) < 1200
-    rows = run_study("damage", trials=1, duration=10.0, output=tmp_path, resume=True)
+    results = run_study("damage", trials=1, duration=10.0, output=tmp_path, resume=True)
     assert lines(tmp_path)[: len(before)] == before
-    assert len(rows) == len({place_of(row) for row in rows}) == 5
+    assert len(results) == len({id_of(result) for result in results}) == 5
 
 
 @pytest.fixture
@@ -460,7 +471,7 @@ def cluster(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]
             process.wait()
 
 
-def test_dask_gives_the_same_rows_though_a_worker_is_killed(
+def test_dask_gives_the_same_results_though_a_worker_is_killed(
     cluster: tuple[str, list[subprocess.Popen[bytes]]],
 ) -> None:
     address, processes = cluster
@@ -473,7 +484,7 @@ def test_dask_gives_the_same_rows_though_a_worker_is_killed(
 
     there = run_study("damage", **asked, scheduler=address, progress=kill_one)
     assert processes[1].wait() != 0
-    assert there == here and all(row["error"] == "" for row in here)
+    assert there == here and all(result["error"] == "" for result in here)
 
 
 def test_no_scheduler_is_said() -> None:

@@ -1,4 +1,4 @@
-"""Sections of a run, marked in figures over time."""
+"""Intervals of a run, marked in figures over time."""
 
 from __future__ import annotations
 
@@ -11,38 +11,38 @@ from apnc.report.encoding import float32
 from apnc.report.figure import Figure
 from apnc_core.types import Array
 
-Section = tuple[float, float, str]
+Interval = tuple[float, float, str]
 """Begin and end [s], and label."""
 
 
-def marked(figure: Figure, time: Array, sections: Sequence[Section]) -> Figure:
-    """A figure over time with a label above each section and a band behind every other one.
+def marked(figure: Figure, time: Array, intervals: Sequence[Interval]) -> Figure:
+    """A figure over time with a label above each interval and a band behind every other one.
 
     Args:
         figure: over time; its page has no time vector afterwards to draw it over.
         time: of the lines that have none of their own [s].
-        sections: in order; the time axis ends with the last.
+        intervals: in order; the time axis ends with the last.
     """
     layout = figure.layout
     margin = layout["margin"] | {"t": layout["margin"]["t"] + 30}
     layout = layout | {
         "height": layout["height"] + 30,
         "margin": margin,
-        "xaxis": layout["xaxis"] | {"range": [0.0, sections[-1][1]]},
-        "shapes": [*layout.get("shapes", ()), *map(_band, sections[::2])],
-        "annotations": [*layout.get("annotations", ()), *map(_label, sections)],
+        "xaxis": layout["xaxis"] | {"range": [0.0, intervals[-1][1]]},
+        "shapes": [*layout.get("shapes", ()), *map(_band, intervals[::2])],
+        "annotations": [*layout.get("annotations", ()), *map(_label, intervals)],
     }
     data = [{"x": float32(time)} | trace for trace in figure.data]
     return replace(figure, data=data, layout=layout, over_time=False)
 
 
-def _band(section: Section) -> dict[str, Any]:
-    begin, end, _ = section
+def _band(interval: Interval) -> dict[str, Any]:
+    begin, end, _ = interval
     place = {"yref": "paper", "x0": begin, "x1": end, "y0": 0, "y1": 1, "layer": "below"}
     return {"type": "rect", "fillcolor": theme.BAND, "line": {"width": 0}} | place
 
 
-def _label(section: Section) -> dict[str, Any]:
-    begin, end, text = section
+def _label(interval: Interval) -> dict[str, Any]:
+    begin, end, text = interval
     place = {"x": (begin + end) / 2, "y": 1.0, "yref": "paper", "yanchor": "bottom"}
     return {"text": text, "showarrow": False, "yshift": 24} | place  # over the legend

@@ -1,16 +1,16 @@
-"""Regression values: rows of the commit in which studies began to walk in C, not of theory."""
+"""Regression values: results of the commit in which studies began to walk in C, not of theory."""
 
 from __future__ import annotations
 
 import pytest
 
-from apnc.studies.engine import grid_of, run_trial
-from apnc.studies.rows import Row
+from apnc.studies.results import Result
+from apnc.studies.runner import grid_of, run_trial
 
-ROWS: list[tuple[str, Row, Row]] = [
+RESULTS: list[tuple[str, Result, Result]] = [
     (
         "mi",
-        {"method": "apnc", "mi": 0.28},
+        {"controller": "apnc", "mi": 0.28},
         {
             "convergence_time_s": 3.2666666666666666,
             "convergence_time_authors_s": 1.0166666666666666,
@@ -22,7 +22,7 @@ ROWS: list[tuple[str, Row, Row]] = [
     ),
     (
         "rate",
-        {"method": "tegotae", "rate": 60.0},
+        {"controller": "tegotae", "rate": 60.0},
         {
             "convergence_time_s": None,
             "convergence_time_authors_s": 29.45,
@@ -34,7 +34,7 @@ ROWS: list[tuple[str, Row, Row]] = [
     ),
     (
         "steering",
-        {"course": "turns"},
+        {"schedule": "turns"},
         {
             "yaw_rate_section_2": -0.45947578921572124,
             "yaw_rate_section_3": 0.5414372318863558,
@@ -48,7 +48,7 @@ ROWS: list[tuple[str, Row, Row]] = [
     ),
     (
         "states",
-        {"method": "apc"},
+        {"controller": "apc"},
         {
             "state_formation_time_s": None,
             "state_front_stopped": True,
@@ -61,7 +61,7 @@ ROWS: list[tuple[str, Row, Row]] = [
     ),
     (
         "terrain",
-        {"method": "apnc", "roughness": 1.0},
+        {"controller": "apnc", "roughness": 1.0},
         {
             "convergence_time_s": 1.4000000000000001,
             "path_speed_m_per_s": 0.08851247144649153,
@@ -72,7 +72,7 @@ ROWS: list[tuple[str, Row, Row]] = [
     ),
     (
         "conditions",
-        {"method": "apnc", "condition": "C4"},
+        {"controller": "apnc", "condition": "C4"},
         {
             "convergence_time_s": 6.05,
             "path_speed_m_per_s": 0.06751396666160998,
@@ -83,7 +83,7 @@ ROWS: list[tuple[str, Row, Row]] = [
     ),
     (
         "damage",
-        {"method": "phase_reset"},
+        {"controller": "phase_reset"},
         {
             "convergence_time_authors_s": 5.933333333333334,
             "path_speed_m_per_s": 0.019287935657240313,
@@ -105,12 +105,14 @@ ROWS: list[tuple[str, Row, Row]] = [
 ]
 
 
-@pytest.mark.parametrize(("study", "cell", "figures"), ROWS, ids=[row[0] for row in ROWS])
-def test_the_row_is_the_same(study: str, cell: Row, figures: Row) -> None:
+@pytest.mark.parametrize(
+    ("study", "cell", "figures"), RESULTS, ids=[result[0] for result in RESULTS]
+)
+def test_the_result_is_the_same(study: str, cell: Result, figures: Result) -> None:
     (trial,) = [t for t in grid_of(study, 1) if cell.items() <= t.cell.items()]
-    row = run_trial(trial)
+    result = run_trial(trial)
     # the walks have these bits on every machine; figures are rounded otherwise by other numpys
-    assert {name: row[name] for name in figures} == {
+    assert {name: result[name] for name in figures} == {
         name: value if value is None else pytest.approx(value, rel=1e-6)
         for name, value in figures.items()
     }
