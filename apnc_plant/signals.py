@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 XYZ: Final = ("x", "y", "z")
+ANGLES: Final = ("roll", "pitch", "yaw")
 JOINT_SIGNS: Final = {
     "abduction": "moves the foot to the left",
     "hip": "swings the foot forward",
@@ -68,7 +69,7 @@ PLANT_SIGNALS: Final[tuple[Signal, ...]] = (
         "roll, pitch and yaw of the trunk",
         "world to trunk: yaw about z, then pitch about y, then roll about x",
         False,
-        ("roll", "pitch", "yaw"),
+        ANGLES,
         _RPY,
     ),
     Signal("velocity", "m/s", "velocity of the trunk reference point", WORLD, False, XYZ),

@@ -1,4 +1,4 @@
-"""``record.csv``: every signal of a run, a row per tick, SI units throughout."""
+"""``record.csv``: every signal of a run, a line per tick, SI units throughout."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from typing import Final
 
 import numpy as np
 
-from apnc.loop.record import Record, columns
+from apnc.loop.columns import columns
+from apnc.loop.record import Record
 
-_ROWS: Final = 4096
+_LINES: Final = 4096
 
 
 def write_csv(record: Record, path: Path) -> None:
@@ -22,6 +23,6 @@ def write_csv(record: Record, path: Path) -> None:
     table = columns(record)
     with path.open("w", encoding="utf-8", newline="") as file:
         csv.writer(file, lineterminator="\n").writerow(table)
-        for begin in range(0, len(record), _ROWS):  # in parts: a walk of an hour has 200,000 rows
-            part = [values[begin : begin + _ROWS] for values in table.values()]
+        for begin in range(0, len(record), _LINES):  # in parts: an hour has 200,000 lines
+            part = [values[begin : begin + _LINES] for values in table.values()]
             np.savetxt(file, np.column_stack(part), fmt="%.9g", delimiter=",")

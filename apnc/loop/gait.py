@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from apnc.loop.last_row import last_row
+from apnc.loop.last_sample import last_sample
 from apnc_core.in_python import in_python
 from apnc_core.variables import variable_named
 
@@ -82,7 +82,7 @@ def gait_of_run(folder: Path | str) -> Gait:
     """
     path = Path(folder) / "record.csv"
     try:
-        last = last_row(path)
+        last = last_sample(path)
     except ValueError as error:
         raise GaitError(str(error)) from None
     legs = tuple(name.removesuffix(".o1") for name in last if name.endswith(".o1"))

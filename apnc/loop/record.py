@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Final
+from typing import TYPE_CHECKING
 
 from apnc.loop.experiment import Experiment
-from apnc_core.schema import Shape, Variable
 from apnc_core.settings import Setting
 from apnc_core.types import Array
-from apnc_core.variables import TABLE
 from apnc_plant.robot import RobotDescription
-from apnc_plant.signals import PLANT_SIGNALS
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 
 class End(StrEnum):
@@ -77,6 +78,36 @@ class Record:
         """The first ``count`` samples of the run."""
         return self[:count]
 
+    def to_pandas(self) -> pandas.DataFrame:
+        """The record as a table: a column for each of ``record.csv``, the time [s] as index.
+
+        Raises:
+            ValueError: pandas is not installed.
+        """
+        from apnc.loop.tables import data_frame  # noqa: PLC0415  # imports this module
+
+        return data_frame(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The record as a dataset: a variable for each signal, with named dimensions.
+
+        Dimensions are ``time`` [s], ``leg`` and ``relation`` (the two legs of a phase relation),
+        and for vectors ``axis`` (x, y, z), ``joint`` or ``angle`` (roll, pitch, yaw). Each variable
+        has its unit and its meaning as attributes.
+
+        Raises:
+            ValueError: xarray is not installed.
+        """
+        from apnc.loop.tables import dataset  # noqa: PLC0415  # imports this module
+
+        return dataset(self)
+
+    def _repr_html_(self) -> str:
+        """A short table of the run, for notebooks."""
+        from apnc.loop.tables import html  # noqa: PLC0415  # imports this module
+
+        return html(self)
+
     @property
     def complete(self) -> bool:
         """Whether the run came to its planned end."""
@@ -95,58 +126,3 @@ def merged(plant: Mapping[str, Array], controller: Mapping[str, Array]) -> dict[
     as it reached the controller.
     """
     return {**plant, **controller}
-
-
-@dataclass(frozen=True)
-class Column:
-    """One column of ``record.csv``: its name, unit, frame, meaning, and what positive means."""
-
-    name: str
-    unit: str
-    frame: str
-    description: str
-    sign: str = ""
-
-
-_TIME: Final = Column("time", "s", "", "start of the tick")
-
-
-def column_names(record: Record) -> list[Column]:
-    """The flat columns of a record, in order: ``time``, ``RF.o1``, ``phi12``, ``position.x``."""
-    return [column for column, _ in _columns(record)]
-
-
-def columns(record: Record) -> dict[str, Array]:
-    """All signals as flat columns of shape (T,), by name.
-
-    Vectors are named by component, signals per leg by leg, relations by the pair of legs.
-    """
-    return {column.name: values for column, values in _columns(record)}
-
-
-def _columns(record: Record) -> Iterator[tuple[Column, Array]]:
-    yield _TIME, record.time
-    described = {variable.name: variable for variable in TABLE}
-    of_plant = {signal.name for signal in PLANT_SIGNALS}
-    for name, values in record.signals.items():
-        if name in of_plant:
-            continue
-        variable = described[name]
-        entries = values.reshape(len(record), values.shape[1] if values.ndim > 1 else 1)
-        for entry, label in enumerate(_labels(variable, record.legs)):
-            column = Column(label, variable.unit or "", "", variable.description)
-            yield column, entries[:, entry]
-    for signal in PLANT_SIGNALS:
-        names = signal.columns(record.legs)
-        entries = record.signals[signal.name].reshape(len(record), len(names))
-        for entry, label in enumerate(names):
-            column = Column(label, signal.unit, signal.frame, signal.description, signal.sign)
-            yield column, entries[:, entry]
-
-
-def _labels(variable: Variable, legs: tuple[str, ...]) -> list[str]:
-    if variable.shape is Shape.scalar:
-        return [variable.name]
-    if variable.shape is Shape.leg:
-        return [f"{leg}.{variable.name}" for leg in legs]
-    return [f"{variable.name}1{k}" for k in range(2, len(legs) + 1)]

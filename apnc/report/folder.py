@@ -10,9 +10,10 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
+from apnc.loop.columns import column_names
 from apnc.loop.csv_file import write_csv
 from apnc.loop.provenance import what_was_run
-from apnc.loop.record import Record, column_names
+from apnc.loop.record import Record
 from apnc.report import RUN_FILES
 from apnc.report.locks import one_at_a_time
 from apnc.report.page import render

@@ -15,7 +15,8 @@ import numpy as np
 import pytest
 from records import synthetic_record
 
-from apnc.loop.record import End, column_names
+from apnc.loop.columns import column_names
+from apnc.loop.record import End
 from apnc.report import folder as folder_module
 from apnc.report.folder import LEFT_S, write_run, write_together
 

@@ -12,7 +12,7 @@ import pytest
 
 from apnc import Experiment, Gait, Record, gait_of_run, load_robot, simulate, write_report
 from apnc.cli.main import main
-from apnc.loop.record import column_names
+from apnc.loop.columns import column_names
 from apnc_plant.robot import ROBOTS, RobotDescriptionError
 
 NAMES = ('front, "right"', "RH/../../x", "<b>L F</b>", "../LH")

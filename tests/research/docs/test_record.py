@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from records import synthetic_record
 
-from apnc.loop.record import column_names
+from apnc.loop.columns import column_names
 from apnc.report.figures import all_figures
 from apnc.report.panels import Run
 from apnc.summary import summarise
