@@ -61,6 +61,15 @@ def test_fewer_platforms_are_taken_from_it(everywhere: bytes) -> None:
         }
 
 
+def test_intel_macs_alone_do_not_get_the_file_for_both_processors(
+    everywhere: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(build, "compiler_version", lambda: "1")
+    monkeypatch.setattr(build, "fmu_bytes", lambda options, progress: b"built anew")
+    assert cached_fmu(BuildOptions(platforms=("darwin64",))).read_bytes() == b"built anew"
+    assert cached_fmu(BuildOptions(platforms=("linux64",))).read_bytes() != b"built anew"
+
+
 def test_on_arm_linux_the_folder_that_fmpy_opens_is_for_arm(
     everywhere: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:

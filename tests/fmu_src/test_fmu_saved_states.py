@@ -13,6 +13,8 @@ from pathlib import Path
 import pytest
 from raw_fmu import ERROR, OK, TS, Instance, Library, fmu_in
 
+from apnc_core.interface import Parameters
+from apnc_core.variables import N_WINDOW_MAX
 from build_fmu.build import cached_fmu
 from build_fmu.options import BuildOptions, host_platform
 
@@ -20,10 +22,13 @@ HEADER = 64
 """Bytes in front of the run; the first of the run are Ts."""
 
 
+TICKS = 107
+
+
 @pytest.fixture
 def blob(library: Library) -> Iterator[bytes]:
     fmu = fmu_in(library, "stepping")
-    for n in range(100):
+    for n in range(TICKS):
         fmu.step(n * TS)
     yield serialized(fmu)
     fmu.free()
@@ -128,4 +133,44 @@ def test_a_blob_made_by_hand_cannot_bring_impossible_parameters(
     fmu = fmu_in(library, "stepping")
     assert read_back(fmu, with_checksum(forged)) == ERROR
     assert "inconsistent" in fmu.messages[0]
+    fmu.free()
+
+
+NUMBERS = {
+    "next_tick": ("<q", -16, TICKS),
+    "ticks": ("<q", -24, TICKS),
+    "oldest": ("<i", -152, TICKS % Parameters().N),
+}
+"""Whole numbers of the controller's state: format, place from the end, value after ``TICKS``."""
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        *[(name, value) for name in ("next_tick", "ticks") for value in (-1, 2**53 + 1, -(2**63))],
+        *[("oldest", value) for value in (-1, Parameters().N, N_WINDOW_MAX, 2**31 - 1)],
+    ],
+)
+def test_a_blob_made_by_hand_cannot_bring_impossible_counts(
+    library: Library, blob: bytes, name: str, value: int
+) -> None:
+    kind, place, expected = NUMBERS[name]
+    assert struct.unpack_from(kind, blob, len(blob) + place) == (expected,)
+    forged = bytearray(blob)
+    struct.pack_into(kind, forged, len(blob) + place, value)
+    fmu = fmu_in(library, "stepping")
+    assert read_back(fmu, with_checksum(forged)) == ERROR
+    assert "inconsistent" in fmu.messages[0]
+    fmu.free()
+
+
+@pytest.mark.parametrize("oldest", [-1, N_WINDOW_MAX])
+def test_a_terminated_state_cannot_bring_a_place_outside_the_window(
+    library: Library, oldest: int
+) -> None:
+    fmu = fmu_in(library, "terminated")
+    forged = bytearray(serialized(fmu))
+    kind, place, _ = NUMBERS["oldest"]
+    struct.pack_into(kind, forged, len(forged) + place, oldest)
+    assert read_back(fmu, with_checksum(forged)) == ERROR
     fmu.free()
