@@ -1,6 +1,6 @@
 """Put the table of a study into a page of the documentation, in place of the one that stands there.
 
-python -m research.docs.put_table docs/formation.md apnc-study-gait/gait.md
+python -m research.docs.put_table docs/formation/walks.md apnc-study-gait/gait.md
 
 The page has a line ``<!-- gait -->``, named as the file, directly above the table; a file with
 several tables gives the first one.
