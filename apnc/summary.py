@@ -28,7 +28,7 @@ FELL_AT_ONCE_S: Final = 2.0
 class Summary:
     """Key figures of one run; ``None`` where a figure is undefined for this run."""
 
-    method: str  # controller that walked the robot
+    controller: str  # controller that walked the robot
     mi: float | tuple[tuple[float, float], ...]  # modulatory input MI asked for, or its steps
     seed: int  # of everything random in the run
     end: str  # complete, fell, diverged or interrupted
@@ -86,7 +86,7 @@ def summarise(record: Record) -> Summary:
     weight = record.mass * metrics.GRAVITY
     touch = metrics.touch_moment(sound.signals["foot_force"][..., 2], weight)
     figures = {
-        "method": record.experiment.method,
+        "controller": record.experiment.controller_name,
         "mi": record.experiment.mi,
         "seed": record.experiment.seed,
         "end": str(record.end),

@@ -38,9 +38,9 @@ class BuildOptions:
         platforms: names (FMI 2.0.5 folders) of the binaries to include; empty for sources only.
         fmi: version of the standard, 2 or 3.
         preset: set of parameters that the FMU starts with.
-        settings: start values by parameter name, in place of those of the preset and the memory.
-        memory: relations phi_1k [rad], legs - 1 of them, that the FMU starts with as learned
-            (``stored`` and ``phi_stored``); empty: none.
+        settings: start values by parameter name, in place of those of the preset and the gait.
+        gait: relations phi_1k [rad] of the stored gait that the FMU starts with, legs - 1 of
+            them (``stored`` and ``phi_stored``); none if empty.
         enumerations: ``enumeration``, or ``integer`` for importers that drop enumerations.
 
     Raises:
@@ -53,12 +53,12 @@ class BuildOptions:
     fmi: int = 2
     preset: str = "lilibot"
     settings: Mapping[str, SettingLike] = field(default_factory=dict, hash=False)
-    memory: tuple[float, ...] = ()
+    gait: tuple[float, ...] = ()
     enumerations: str = "enumeration"
 
     def __post_init__(self) -> None:
         """Check the choices."""
-        for name in ("legs", "naming", "platforms", "fmi", "preset", "memory", "enumerations"):
+        for name in ("legs", "naming", "platforms", "fmi", "preset", "gait", "enumerations"):
             object.__setattr__(self, name, in_python(getattr(self, name)))
         if not 2 <= self.legs <= MAX_LEGS:
             raise BuildError(f"legs = {self.legs} is not in 2 ... {MAX_LEGS}")
@@ -67,8 +67,8 @@ class BuildOptions:
         check_platforms(self.platforms)
         check_choices(self.naming, self.fmi, self.enumerations)
         chosen: dict[str, SettingLike] = {}
-        if self.memory:
-            chosen = {"stored": True, "phi_stored": tuple(self.memory)}
+        if self.gait:
+            chosen = {"stored": True, "phi_stored": tuple(self.gait)}
         own = {name: checked(name, value) for name, value in (chosen | dict(self.settings)).items()}
         phi = own.get("phi_stored", ())
         if isinstance(phi, tuple) and len(phi) not in (0, self.legs - 1):
@@ -76,7 +76,7 @@ class BuildOptions:
                 f"phi_stored has {len(phi)} values; {self.legs} legs take {self.legs - 1}"
             )
         object.__setattr__(self, "settings", dict(sorted(own.items())))
-        object.__setattr__(self, "memory", ())
+        object.__setattr__(self, "gait", ())
 
     def parameters(self) -> Parameters:
         """The parameters that the FMU starts with."""

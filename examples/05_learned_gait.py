@@ -1,5 +1,7 @@
-"""Motor memory: a gait that one controller learned, put into a fresh one on a robot that feels
-nothing (condition S3: every foot sensor is dead)."""
+"""A stored gait: what one controller learned, put into a fresh one on a robot that feels nothing.
+
+In condition S3 every foot sensor is dead.
+"""
 
 import apnc
 
@@ -8,8 +10,8 @@ apnc.write_report(learning, "learning")
 gait = apnc.gait_of_run("learning")
 apnc.write_gait(gait, "gait.json")
 
-with_memory = apnc.read_gait("gait.json").settings(learning.legs)
-for name, settings in (("empty memory", {}), ("learned gait", with_memory)):
+with_gait = apnc.read_gait("gait.json").settings(learning.legs)
+for name, settings in (("no stored gait", {}), ("stored gait", with_gait)):
     record = apnc.simulate(
         apnc.Experiment(mi=0.15, duration=12, conditions="S3", settings=settings)
     )

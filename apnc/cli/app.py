@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from apnc.cli import build, export_robot, info, memory, study, system, walk
+from apnc.cli import build, export_robot, gait, info, study, system, walk
 from apnc_core import __version__
 
 app = typer.Typer(
@@ -21,7 +21,7 @@ app.command("build")(build.build)
 app.command("build-plant")(system.build_plant)
 app.command("build-system")(system.build_system)
 app.command("info")(info.info)
-app.add_typer(memory.app, name="memory")
+app.add_typer(gait.app, name="gait")
 app.add_typer(study.app, name="study")
 app.command("export-robot")(export_robot.export_robot)
 

@@ -5,14 +5,17 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 from typer import Option
 
 from apnc.cli.console import File, Text, Texts, apart, file_option, given, say, status, writable
+from apnc.controllers import CONTROLLERS, named_controller
 
 if TYPE_CHECKING:
     from apnc_core.settings import SettingLike
+
+_CONTROLLERS: Final = ", ".join(CONTROLLERS)
 
 
 def build(
@@ -25,8 +28,8 @@ def build(
     preset: Annotated[str, Option(help="At the start: robot, lilibot, paper.")] = "robot",
     setting: Annotated[Texts, Option("--set", help="NAME=VALUE at the start; repeatable.")] = None,
     params: Annotated[File, Option("--params", "--parameters", help="SSV, TOML, JSON.")] = None,
-    memory: Annotated[File, Option(help="Learned gait at the start.")] = None,
-    method: Annotated[Text, Option(help="Controller at the start.")] = None,
+    gait: Annotated[File, Option(help="Stored gait at the start.")] = None,
+    controller: Annotated[Text, Option(help=f"{_CONTROLLERS} at the start.")] = None,
     enumerations: Annotated[str, Option(help="enumeration, integer.")] = "enumeration",
     release: Annotated[File, Option(help="Folder for all files of a release instead.")] = None,
 ) -> None:
@@ -46,10 +49,13 @@ def build(
             )
             say(f"{release}: {', '.join(path.name for path in files)}")
             return
-        apart({"--output": output}, given(robot=robot, params=params, memory=memory))
+        apart({"--output": output}, given(robot=robot, params=params, gait=gait))
         names, settings = _of_robot(robot, legs, own=preset == OWN_PRESET)
-        settings |= read_parameters(params) if params else {}
-        settings |= {"method": method} if method else {}
+        if controller:
+            settings |= named_controller(controller).settings
+        settings |= read_parameters(params, controller) if params else {}
+        if controller:
+            settings |= {"method": named_controller(controller).method}
         settings |= dict(map(parse, setting or ()))
         options = BuildOptions(
             legs=legs or len(names),
@@ -58,7 +64,7 @@ def build(
             fmi=fmi,
             preset="lilibot" if preset == OWN_PRESET else preset,
             settings=settings,
-            memory=read_gait(memory).settings(names)["phi_stored"] if memory else (),
+            gait=read_gait(gait).settings(names)["phi_stored"] if gait else (),
             enumerations=enumerations,
         )
         writable(output, file=True)

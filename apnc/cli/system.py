@@ -10,7 +10,9 @@ from typing import Annotated
 from typer import Context, Option
 
 from apnc.cli.console import File, Number, Texts, say, status, writable
+from apnc.controllers import CONTROLLERS
 
+_CONTROLLERS = ", ".join(CONTROLLERS)
 _NAMING = "structured, flat: leg[1].grf, leg1_grf."
 
 
@@ -47,11 +49,11 @@ def build_system(
     roughness: Annotated[Number, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
     slope: Annotated[Number, Option(help="Rise of the ground along x [deg].")] = None,
     turn: Annotated[float, Option(help="-1 right ... 1 left.")] = 0.0,
-    method: Annotated[str, Option(help="Controller.")] = "apnc",
+    controller: Annotated[str, Option(help=f"{_CONTROLLERS}.")] = "apnc",
     preset: Annotated[str, Option(help="robot, lilibot, paper.")] = "robot",
     rate: Annotated[float, Option(help="Update rate [Hz].")] = 60.0,
     setting: Annotated[Texts, Option("--set", help="NAME=VALUE; servo.stiffness=20 too.")] = None,
-    memory: Annotated[File, Option(help="Learned gait to start with.")] = None,
+    gait: Annotated[File, Option(help="Stored gait to start with.")] = None,
     duration: Annotated[float, Option(help="End of the default experiment [s].")] = 45.0,
     platform: Annotated[Texts, Option(help="As for build; this one if omitted.")] = None,
 ) -> None:

@@ -29,6 +29,7 @@ from apnc.cli.console import (
     writable,
 )
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
+from apnc.controllers import CONTROLLERS
 from apnc.loop.steps import parse_steps
 from apnc.report import RUN_FILES
 from apnc_core.enumerations import Method
@@ -48,7 +49,7 @@ _OVER: Final = (
     ("reset", "reset", {"true": True, "false": False}.__getitem__),
     ("conditions", "condition", str),
 )
-_METHODS: Final = ", ".join(Method.__members__)
+_CONTROLLERS: Final = ", ".join(CONTROLLERS)
 _NAMED: Final = ", ".join(CONDITIONS)
 
 
@@ -58,11 +59,13 @@ def walk(
     mi: Annotated[Text, Option(help="Modulatory input *; 0.08 if omitted.")] = None,
     duration: Annotated[Number, Option(help="Simulated time [s]; 45.0 if omitted.")] = None,
     seed: Annotated[int | None, Option(help="Of noise and asymmetry; 0 if omitted.")] = None,
-    method: Annotated[Text, Option(help=f"{_METHODS}; apnc if omitted.")] = None,
+    controller: Annotated[
+        Text, Option(help=f"{_CONTROLLERS}; apnc, or the method of --fmu, if omitted.")
+    ] = None,
     preset: Annotated[Text, Option(help="robot, lilibot, paper; robot if omitted.")] = None,
     setting: Annotated[Texts, Option("--set", help="Parameter, NAME=VALUE; repeatable.")] = None,
     params: Annotated[File, Option(help="summary.json, SSV, JSON or TOML file.")] = None,
-    memory: Annotated[File, Option(help="Learned gait to start with.")] = None,
+    gait: Annotated[File, Option(help="Stored gait to start with.")] = None,
     ground: Annotated[Text, Option(help="KIND:NAME=VALUE,... as in docs/using.md.")] = None,
     roughness: Annotated[Number, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
     slope: Annotated[Number, Option(help="Rise of the ground along x [deg].")] = None,
@@ -83,7 +86,7 @@ def walk(
     Exit code 0 if the walk came to its planned end, 1 if the robot fell or its motion diverged.
     """
     with status("starting"):
-        read = given(robot=robot, params=params, memory=memory, fmu=fmu)
+        read = given(robot=robot, params=params, gait=gait, fmu=fmu)
         written = {"--output": [output / name for name in RUN_FILES]}
         apart({"--json": json_file, "--mcap": mcap}, read | written)
         experiment = experiment_of(context.params)
@@ -146,16 +149,16 @@ def experiment_of(options: Mapping[str, Any]) -> Experiment:
     if "params" in said:
         from apnc.loop.parameters import read_parameters
 
-        settings = read_parameters(said["params"])
+        settings = read_parameters(said["params"], said.get("controller"))
         if "Ts" in settings:
             given.setdefault("rate", 1.0 / settings.pop("Ts"))
         if "method" in settings:
-            given.setdefault("method", Method(settings.pop("method")).name)
+            given.setdefault("controller", Method(settings.pop("method")).name)
         present = apnc.Experiment(**given).parameters()
         settings = {name: value for name, value in settings.items() if value != present[name]}
-    if "memory" in said:
+    if "gait" in said:
         legs = tuple(leg.name for leg in apnc.Experiment(**given).description.legs)
-        settings |= apnc.read_gait(said["memory"]).settings(legs)
+        settings |= apnc.read_gait(said["gait"]).settings(legs)
     if "setting" in said:
         from apnc.loop.experiment import SET_ELSEWHERE
         from apnc_core.settings import parse

@@ -12,6 +12,7 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any, Final
 
+from apnc.controllers import OWN_CONTROLLER, named_controller
 from apnc.loop.code import code_hash
 from apnc.loop.engines import OWN_ENGINE, check_engine
 from apnc.loop.plain import made, plain
@@ -41,7 +42,7 @@ _OVER_TIME: Final[Mapping[str, Callable[[Any], Any]]] = {
 }
 """Fields that hold one value or steps over time, and what gives each value its type."""
 
-SET_ELSEWHERE: Final = {"Ts": "rate", "method": "method"}
+SET_ELSEWHERE: Final = {"Ts": "rate", "method": "controller"}
 """Parameters that are no settings, and the field that each comes from."""
 
 _NUMBERS: Final = ("duration", "rate", "step")
@@ -57,10 +58,11 @@ class Experiment:
         mi: modulatory input [1], one value or steps over time ``((start [s], value), ...)``.
         duration: simulated time [s], rounded to whole ticks.
         seed: of the robot's asymmetry and the sensor noise.
-        method: name of the controller, see ``Method``; ``apnc`` or the FMU's own if omitted.
+        controller: label of a method of the FMU with its settings, see ``apnc.controllers``.
+            ``apnc`` if omitted; None of an FMU of one's own that keeps its method and settings.
         preset: ``robot`` (the defaults and what the robot's file sets), ``lilibot`` (the defaults)
             or ``paper`` (as printed).
-        settings: parameters that differ from the preset, by name.
+        settings: parameters that differ from those of the preset and the controller, by name.
         ground: what it walks on.
         conditions: payload, damage and the like: a name of the paper, ``Conditions``, or steps.
         turn: steering [1], positive turns left; one value or steps.
@@ -69,8 +71,8 @@ class Experiment:
         step: longest integration step of the plant [s].
         engine: what integrates the equations of motion, ``exudyn``, ``mujoco`` or ``compiled``.
         fmu: file of the controller; the built one if omitted. Its own start values, those that are
-            not the defaults, hold unless ``rate``, ``method``, ``settings`` or a preset other than
-            ``robot`` say otherwise; they go before what the robot's file sets.
+            not the defaults, hold unless ``rate``, ``controller``, ``settings`` or a preset other
+            than ``robot`` say otherwise; they go before what the robot's file sets.
 
     Numbers and arrays of numpy and paths become what Python has for them.
 
@@ -82,7 +84,7 @@ class Experiment:
     mi: Over[float] = 0.08
     duration: float = 45.0
     seed: int = 0
-    method: str = None  # type: ignore[assignment]  # a text once it is made
+    controller: str | None = None
     preset: str = OWN_PRESET
     settings: Mapping[str, SettingLike] = field(default_factory=dict)
     ground: Ground = field(default_factory=Plane)
@@ -107,10 +109,8 @@ class Experiment:
         loads = {conditions_of(value).payload for _, value in steps_of(self.conditions)}
         if len(loads) > 1:
             raise ValueError(f"payload changes during the run: {sorted(loads)} kg; allowed: one")
-        if self.method not in Method.__members__:
-            raise ValueError(
-                f"method '{self.method}' is not one of {', '.join(Method.__members__)}"
-            )
+        if self.controller is not None:
+            named_controller(self.controller)
         self._check_times()
         check_engine(self.engine)
         PlantOptions(step=self.step)
@@ -141,9 +141,8 @@ class Experiment:
 
     def _of_fmu(self) -> dict[str, Any]:
         """Fields that the FMU says itself, or else the defaults."""
-        own: dict[str, Any] = {name: variable_named(name).start for name in SET_ELSEWHERE}
-        own |= self.fmu_starts
-        return {"rate": 1.0 / own["Ts"], "method": Method(own["method"]).name}
+        Ts: Any = self.fmu_starts.get("Ts", variable_named("Ts").start)
+        return {"rate": 1.0 / Ts, "controller": OWN_CONTROLLER if self.fmu is None else None}
 
     def _check_times(self) -> None:
         for name in _NUMBERS:
@@ -199,12 +198,21 @@ class Experiment:
             )
         return values
 
+    @property
+    def controller_name(self) -> str:
+        """Label of the controller; of an FMU that keeps its own, the name of its method."""
+        if self.controller is not None:
+            return self.controller
+        method: Any = self.parameters()["method"]
+        return Method(method).name
+
     def parameters(self) -> dict[str, SettingLike]:
         """Every parameter of the controller by name, as it is set.
 
-        What comes first holds: settings, a preset that is named, own start values of the FMU, what
-        the robot's file sets, and the weight of the robot, the defaults. ``Ts`` and ``method`` are
-        set by the fields, and a preset sets nothing that belongs to the run.
+        What comes first holds: ``settings``, those of the controller, a preset that is named, own
+        start values of the FMU, what the robot's file sets, and the weight of the robot, the
+        defaults. ``Ts`` and ``method`` are set by the fields ``rate`` and ``controller``, and a
+        preset sets nothing that belongs to the run.
         """
         known = [v.name for v in variables_of(Causality.parameter)]
         own, of_fmu = {}, dict(self.fmu_starts)
@@ -218,7 +226,10 @@ class Experiment:
             raise ValueError(f"preset '{self.preset}' is not one of {allowed}")
         values: dict[str, SettingLike] = {name: getattr(chosen, name) for name in known}
         values |= {"robot_weight": self.description.weight, **own, **of_fmu}
-        values |= {"Ts": self.Ts, "method": Method[self.method]}
+        values["Ts"] = self.Ts
+        if self.controller is not None:
+            used = named_controller(self.controller)
+            values |= {"method": Method[used.method], **used.settings}
         for name, value in self.settings.items():
             if name in SET_ELSEWHERE:
                 raise ValueError(f"{name} = {value} is not set here, but by {SET_ELSEWHERE[name]}")
@@ -274,7 +285,7 @@ class Experiment:
 
     def key(self) -> str:
         """Hash of all that a run depends on: robot, parameters, code; 16 hex digits."""
-        told = {"preset", "settings", "method"}  # by the parameters
+        told = {"preset", "settings", "controller"}  # by the parameters
         content = {
             **{f.name: getattr(self, f.name) for f in fields(self) if f.name not in told},
             "robot": _hash_of(self.description),

@@ -17,7 +17,7 @@ from apnc_plant.conditions import Conditions
 DASH: Final = "–"
 _SPACE: Final = "\N{NO-BREAK SPACE}"
 _UNITS: Final = {"duration": " s", "rate": " Hz", "step": " s"}
-_SPEAK_FOR_THEMSELVES: Final = ("robot", "method", "ground", "conditions")
+_SPEAK_FOR_THEMSELVES: Final = ("robot", "controller", "ground", "conditions")
 
 
 @dataclass(frozen=True)
@@ -50,10 +50,10 @@ def facts(record: Record) -> list[tuple[str, str]]:
     stored = p["phi_stored"] if p["stored"] else None
     return [
         ("Robot", f"{record.robot.name}, {record.mass:.2f} kg, legs {', '.join(record.legs)}"),
-        ("Controller", f"{e.method}, preset {e.preset}, {e.rate:g} Hz"),
+        ("Controller", f"{e.controller_name}, preset {e.preset}, {e.rate:g} Hz"),
         *_own_fmu(e, p),
         ("Changed parameters", ", ".join(_settings(e.settings)) or "none"),
-        ("Memory", f"starts with φ {_plain(stored)} rad" if stored else "empty at the start"),
+        ("Stored gait", f"φ {_plain(stored)} rad at the start" if stored else "none at the start"),
         *((name.capitalize(), _plain(getattr(e, name))) for name in ("turn", "conditions")),
         *(("MI", _plain(e.mi)), ("Ground", _plain(e.ground)), ("Seed", str(e.seed))),
         ("Engine", f"{e.engine}, step {1e6 * e.step:.4g} µs"),

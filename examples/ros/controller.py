@@ -5,7 +5,7 @@ Subscribes to ``foot_loads`` (Float64MultiArray [N], legs in the order of the ro
 ``turn`` (Float64), ``reset`` (Bool). Publishes ``joint_commands`` (JointState [rad], relative to
 the reference pose) and ``diagnostics``.
 
-Parameters: ``~robot`` (name or file), ``~mi``, ``~memory`` (gait file: written when a gait has been
+Parameters: ``~robot`` (name or file), ``~mi``, ``~gait`` (gait file: written when a gait has been
 stored, read at the start, so that a node that is started again goes on with its gait).
 """
 
@@ -32,12 +32,12 @@ class Node:
     def __init__(self) -> None:
         experiment = Experiment(robot=rospy.get_param("~robot", "lilibot"))
         self.legs = tuple(leg.name for leg in experiment.description.legs)
-        self.Ts, self.memory = experiment.Ts, rospy.get_param("~memory", "")
+        self.Ts, self.gait_file = experiment.Ts, rospy.get_param("~gait", "")
         parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
-        self.stored = bool(self.memory) and Path(self.memory).is_file()
+        self.stored = bool(self.gait_file) and Path(self.gait_file).is_file()
         if self.stored:
-            parameters |= read_gait(Path(self.memory)).settings(self.legs)
-            rospy.loginfo("start with the gait of %s", self.memory)
+            parameters |= read_gait(Path(self.gait_file)).settings(self.legs)
+            rospy.loginfo("start with the gait of %s", self.gait_file)
         self.fmu = FmuController(host_fmu(len(self.legs)), parameters)
         self.loads, self.loads_at = np.zeros(len(self.legs)), rospy.get_time()
         self.mi, self.turn, self.reset = float(rospy.get_param("~mi", 0.08)), 0.0, False
@@ -81,8 +81,8 @@ class Node:
     def report(self, missing: bool) -> None:
         """Once a second: what the controller knows, how late its ticks were, and its gait kept."""
         now = self.fmu.sample()
-        if now["kappa"] == 1.0 and self.memory and not self.stored:
-            write_gait(Gait(self.legs, tuple(now["phi_memory"].tolist())), Path(self.memory))
+        if now["kappa"] == 1.0 and self.gait_file and not self.stored:
+            write_gait(Gait(self.legs, tuple(now["phi_memory"].tolist())), Path(self.gait_file))
             self.stored = True
         jitter = np.diff(self.late) * 1e3
         self.late = self.late[-1:]

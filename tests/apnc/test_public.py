@@ -45,9 +45,9 @@ def test_what_a_person_writes(tmp_path: Path) -> None:
 
 def test_a_study_gives_its_rows() -> None:
     rows = apnc.run_study(
-        "terrain", trials=2, methods=["apnc"], chosen={"roughness": [0.5]}, duration=1.0
+        "terrain", trials=2, controllers=["apnc"], chosen={"roughness": [0.5]}, duration=1.0
     )
-    assert [(row["method"], row["roughness"], row["seed"]) for row in rows] == [
+    assert [(row["controller"], row["roughness"], row["seed"]) for row in rows] == [
         ("apnc", 0.5, 0),
         ("apnc", 0.5, 1),
     ]

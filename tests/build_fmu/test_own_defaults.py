@@ -25,7 +25,7 @@ PHI = (3.0, 0.1, -3.0)
 OWN: dict[str, Any] = {
     "preset": "paper",
     "settings": {"robot_weight": 60, "method": "tegotae", "N": 40, "B_s": 1e-5, "Ts": 0.01},
-    "memory": PHI,
+    "gait": PHI,
 }
 
 
@@ -88,7 +88,7 @@ def test_without_own_defaults_nothing_is_written_beside_the_table(tmp_path: Path
 def test_they_are_named_and_part_of_guid_and_key() -> None:
     builds = [
         BuildOptions(platforms=(), **choice)
-        for choice in ({}, OWN, {"enumerations": "integer"}, {"memory": PHI}, {"preset": "paper"})
+        for choice in ({}, OWN, {"enumerations": "integer"}, {"gait": PHI}, {"preset": "paper"})
     ]
     roots = []
     for options in builds:
@@ -128,9 +128,9 @@ def test_enumerations_as_integers_take_the_same_calls(tmp_path: Path) -> None:
 
 
 def test_memory_and_settings_say_the_same() -> None:
-    by_memory = BuildOptions(memory=PHI)
+    by_gait = BuildOptions(gait=PHI)
     by_settings = BuildOptions(settings={"stored": True, "phi_stored": PHI})
-    assert by_memory == by_settings and build_key(by_memory) == build_key(by_settings)
+    assert by_gait == by_settings and build_key(by_gait) == build_key(by_settings)
 
 
 @pytest.mark.parametrize(
@@ -146,9 +146,9 @@ def test_memory_and_settings_say_the_same() -> None:
         ({"settings": {"method": "cow"}}, "method = 'cow' is not one of apnc, apc"),
         ({"settings": {"stored": 2}}, "stored = 2; allowed: true or false"),
         ({"settings": {"phi_stored": 1.0}}, "phi_stored = 1.0; allowed: a list of numbers"),
-        ({"memory": (1.0,)}, "phi_stored has 1 values; 4 legs take 3"),
+        ({"gait": (1.0,)}, "phi_stored has 1 values; 4 legs take 3"),
         (
-            {"memory": (1.0, 2.0, 9.0)},
+            {"gait": (1.0, 2.0, 9.0)},
             r"phi_stored = \(1.0, 2.0, 9.0\); allowed: a number from -7 to 7",
         ),
     ],

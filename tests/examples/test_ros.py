@@ -80,10 +80,10 @@ def phases(report: dict[str, str]) -> np.ndarray:
 def test_the_trot_forms_and_comes_back_when_the_node_dies(
     ros: dict[str, str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    memory = tmp_path / "gait.json"
+    gait = tmp_path / "gait.json"
     launch = subprocess.Popen(
         ["/usr/bin/python3", "/usr/bin/roslaunch", "--wait", "apnc_ros", "walk.launch",
-         "mi:=0.12", f"memory:={memory}"],
+         "mi:=0.12", f"gait:={gait}"],
         env=ros, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
     )  # fmt: skip
     try:
@@ -95,7 +95,7 @@ def test_the_trot_forms_and_comes_back_when_the_node_dies(
         assert heard["places"][-1] - heard["places"][0] > 0.3  # m
         ticks = np.diff(heard["commands"][60:])
         assert np.median(ticks) == pytest.approx(1 / 60, abs=1e-3)
-        assert memory.is_file()
+        assert gait.is_file()
 
         node = ["pkill", "-KILL", "-P", str(launch.pid), "-f", "__name:=controller"]
         subprocess.run(node, check=True)

@@ -200,7 +200,7 @@ def test_reference_follows_the_own_start_values_of_a_build(tmp_path: Path) -> No
     fmu = cached_fmu(BuildOptions(platforms=(host_platform(),), settings=settings))
     differences = reproduced(fmu, tmp_path)
     assert max(differences.values()) <= TOLERANCE, differences
-    stored = BuildOptions(platforms=(host_platform(),), memory=(3.0, 3.1, 0.1))
+    stored = BuildOptions(platforms=(host_platform(),), gait=(3.0, 3.1, 0.1))
     assert max(reproduced(cached_fmu(stored), tmp_path).values()) <= TOLERANCE
 
 

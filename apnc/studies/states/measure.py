@@ -36,7 +36,7 @@ def measure(record: Record) -> Result:
     """What became of the gait; of a run that ended early no state went as the paper says."""
     if record.complete and record.ended_at >= TIMELINE.end:
         found = judge(record)
-        found |= as_paper_says(found, record.experiment.controller)
+        found |= as_paper_says(found, record.experiment.controller_name)
     else:
         found = {"S1": False, "S2": False, "S3": False}
     return {f"state_{name}": value for name, value in found.items()} | {

@@ -35,7 +35,7 @@ def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]
     return end.value.code, *capsys.readouterr()
 
 
-@pytest.mark.parametrize("words", [[], ["walk"], ["build"], ["study"], ["study", "mi"], ["memory"]])
+@pytest.mark.parametrize("words", [[], ["walk"], ["build"], ["study"], ["study", "mi"], ["gait"]])
 def test_help_imports_nothing_heavy_and_keeps_its_brackets(words: list[str]) -> None:
     command = [sys.executable, "-X", "importtime", "-m", "apnc", *words, "--help"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
@@ -59,13 +59,13 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
     assert code == 0
     for entry in STUDIES.values():
         (line,) = [x for x in out.splitlines() if x.split()[:1] == [entry.name]]
-        assert entry.title in line and entry.place in line
+        assert entry.title in line and entry.section in line
 
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["walk", "--method", "cow"], "method 'cow' is not one of apnc, apc, tegotae, phase_reset"),
+        (["walk", "--controller", "cow"], "controller 'cow' is not one of apnc, apc, tegotae, "),
         (["walk", "--duration", "-3"], "duration = -3.0 s is not a positive time"),
         (["walk", "--duration", "nan"], "duration = nan s is not a positive time"),
         (["walk", "--duration", "1e308"], "duration = 1e+308 s is not a positive time"),
@@ -82,20 +82,20 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["walk", "--set", "xi=true"], "xi = True; allowed: a number"),
         (["walk", "--set", "Ts=1"], "--set Ts is not taken; --rate says it"),
         (["build-system", "--set", "Ts=1"], "--set Ts is not taken; --rate says it"),
-        (["walk", "--set", "method=apc"], "--set method is not taken; --method says it"),
+        (["walk", "--set", "method=apc"], "--set method is not taken; --controller says it"),
         (["walk", "--set", "N=3.7"], "N = 3.7; allowed: a whole number"),
         (["walk", "--set", "kappa_rule=never"], "kappa_rule = 'never' is not one of armed"),
         (["walk", "--robot", "cow"], "robot 'cow'"),
         (["walk", "--condition", "C9"], "conditions 'C9' are not one of"),
         (["walk", "--fmu", "no.fmu"], "no.fmu: no such file"),
         (["walk", "--fmu", "text.fmu"], "text.fmu: not an FMU"),
-        (["walk", "--memory", "text.fmu"], "text.fmu is not a gait file"),
+        (["walk", "--gait", "text.fmu"], "text.fmu is not a gait file"),
         (["walk", "--output", "text.fmu/x"], "output folder text.fmu/x cannot be written"),
         (["walk", "--json", "."], "file . is a folder"),
         (["walk", "--json", "new/"], "'--json': new/ is a folder; allowed: a file"),
         (["walk", "--mcap", "new/"], "'--mcap': new/ is a folder"),
         (["build", "--output", "new/"], "'--output': new/ is a folder"),
-        (["memory", "save", "run", "new/"], "new/ is a folder"),
+        (["gait", "save", "run", "new/"], "new/ is a folder"),
         (["walk", "--json", "x", "--mcap", "x"], "--mcap x would overwrite a file of --json"),
         (["walk", "--json", "a/../x", "--mcap", "./x"], "would overwrite a file of --json"),
         (
@@ -106,22 +106,22 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["walk", "--fmu", "text.fmu", "--json", "text.fmu"], "overwrite a file of --fmu"),
         (["walk", "--robot", "r.toml", "--mcap", "r.toml"], "overwrite a file of --robot"),
         (["walk", "--params", "p.json", "--json", "p.json"], "overwrite a file of --params"),
-        (["walk", "--memory", "g.json", "--json", "g.json"], "overwrite a file of --memory"),
+        (["walk", "--gait", "g.json", "--json", "g.json"], "overwrite a file of --gait"),
         (["build", "--params", "p.ssv", "--output", "p.ssv"], "overwrite a file of --params"),
         (["build", "--robot", "r.toml", "--output", "r.toml"], "overwrite a file of --robot"),
         (
             ["export-robot", "--robot", "r.toml", "--output", "./r.toml"],
             "--output r.toml would overwrite a file of --robot",
         ),
-        (["memory", "save", "run", "run/record.csv"], "would overwrite a file of the run"),
+        (["gait", "save", "run", "run/record.csv"], "would overwrite a file of the run"),
         (["info", "."], ".: a folder, not an FMU"),
         (["walk", "--fmu", "."], ".: a folder, not an FMU"),
         (["walk", "--output", ""], "--output is empty"),
         (["study", "mi", "--output=", "--trials", "1"], "--output is empty"),
-        (["memory", "show", ""], "show is empty"),
+        (["gait", "show", ""], "show is empty"),
         (["info", "text.fmu"], "text.fmu: not an FMU"),
-        (["memory", "save", "nowhere", "gait.json"], "record.csv cannot be read"),
-        (["memory", "save", "nowhere", "x", "--format", "xml"], "format 'xml' is not one of"),
+        (["gait", "save", "nowhere", "gait.json"], "record.csv cannot be read"),
+        (["gait", "save", "nowhere", "x", "--format", "xml"], "format 'xml' is not one of"),
         (["build", "--legs", "1"], "legs = 1 is not in 2 ... 64"),
         (["build", "--platform", "vax"], "platform 'vax' is not one of"),
         (["build", "--set", "N=3.7"], "N = 3.7"),
@@ -132,7 +132,7 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["moo"], "moo"),
         (["walk", "--moo"], "--moo"),
         (["study", "mi", "--trials", "0"], "trials = 0 is not at least 1"),
-        (["study", "mi", "--methods", "cow"], "cow"),
+        (["study", "mi", "--controllers", "cow"], "cow"),
     ],
 )  # fmt: skip
 def test_bad_use_is_one_line_and_code_2(
@@ -261,8 +261,8 @@ def test_a_built_fmu_starts_with_what_was_said(
     write_gait(Gait(("RF", "RH", "LF", "LH"), (3.1, 3.2, 0.1)), Path("gait.json"))
     Path("own.toml").write_text("xi = 0.07\nrobot_weight = 30.0")
     code, _, err = run(
-        capsys, "build", "--platform", "host", "--memory", "gait.json", "--params", "own.toml",
-        "--set", "robot_weight=33", "--method", "tegotae", "--enumerations", "integer",
+        capsys, "build", "--platform", "host", "--gait", "gait.json", "--params", "own.toml",
+        "--set", "robot_weight=33", "--controller", "tegotae", "--enumerations", "integer",
     )  # fmt: skip
     assert code == 0, err
     start = {v.name: v.start for v in fmpy.read_model_description("Apnc.fmu").modelVariables}
@@ -290,7 +290,7 @@ def test_a_built_fmu_takes_no_gait_of_other_legs(
     monkeypatch.chdir(tmp_path)
     Path("own.toml").write_text((ROBOTS / "lilibot.toml").read_text().replace('"RF"', '"FR"'))
     write_gait(Gait(("LF", "RF", "LH", "RH"), (3.1, 3.2, 0.1)), Path("gait.json"))
-    code, _, err = run(capsys, "build", *words, "--memory", "gait.json")
+    code, _, err = run(capsys, "build", *words, "--gait", "gait.json")
     assert code == 2
     assert f"the gait is of legs LF, RF, LH, RH; the robot has {legs}" in err
     assert not Path("Apnc.fmu").exists()
@@ -338,11 +338,11 @@ def test_a_gait_is_kept_shown_and_walked_with(
     monkeypatch.chdir(tmp_path)
     words = ("--set", "stored=true", "--set", "phi_stored=[3.1,3.2,0.1]", "--duration", "1")
     assert run(capsys, "walk", *words, "--output", "first")[0] == 0
-    assert run(capsys, "memory", "save", "first", "gait.json")[0] == 0
+    assert run(capsys, "gait", "save", "first", "gait.json")[0] == 0
     assert read_gait("gait.json").phi == (3.1, 3.2, 0.1)
-    assert "LH 0.10 rad" in run(capsys, "memory", "show", "gait.json")[1]
-    assert run(capsys, "memory", "save", "first", "gait.ssv", "--format", "ssv")[0] == 0
-    for option, file in (("--memory", "gait.json"), ("--params", "gait.ssv")):
+    assert "LH 0.10 rad" in run(capsys, "gait", "show", "gait.json")[1]
+    assert run(capsys, "gait", "save", "first", "gait.ssv", "--format", "ssv")[0] == 0
+    for option, file in (("--gait", "gait.json"), ("--params", "gait.ssv")):
         assert run(capsys, "walk", option, file, "--duration", "1")[0] == 0
         again = json.loads(Path("apnc-walk/summary.json").read_text())
         assert again["parameters"]["phi_stored"] == [3.1, 3.2, 0.1]
@@ -365,14 +365,14 @@ def test_a_study_is_written_and_resumed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    words = ("study", "mi", "--mi", "0.1, 0.2", "--methods", "apnc", "--duration", "1")
+    words = ("study", "mi", "--mi", "0.1, 0.2", "--controllers", "apnc", "--duration", "1")
     more = ("--trials", "1", "--workers", "1", "--series")
     code, out, err = run(capsys, *words, *more)
     assert code == 0, err
     assert out == "2 trials, 2 complete; report: apnc-study-mi/report.html\n"
     folder = tmp_path / "apnc-study-mi"
     rows = [json.loads(line) for line in (folder / "trials.jsonl").read_text().splitlines()]
-    assert sorted((row["mi"], row["duration"], row["method"]) for row in rows) == [
+    assert sorted((row["mi"], row["duration"], row["controller"]) for row in rows) == [
         (0.1, 1.0, "apnc"),
         (0.2, 1.0, "apnc"),
     ]
@@ -388,7 +388,7 @@ def test_a_trial_that_ends_with_an_error_has_its_code(
 ) -> None:
     ends = ["complete", "fell", "error", "fell", "diverged"]
     rows = [{"end": end} for end in ends]
-    monkeypatch.setattr("apnc.studies.engine.run_study", lambda *_, **__: rows)
+    monkeypatch.setattr("apnc.studies.runner.run_study", lambda *_, **__: rows)
     code, out, _ = run(capsys, "study", "rate", "--output", str(tmp_path))
     assert code == 1
     assert out.startswith(

@@ -50,7 +50,7 @@ def test_ctrl_c_during_the_imports_is_no_traceback(at: str, tmp_path: Path) -> N
 
 
 ROOT = Path(__file__).resolve().parents[3]
-IN_C = ("apnc", "study", "mi", "--methods", "apnc", "--duration", "900")
+IN_C = ("apnc", "study", "mi", "--controllers", "apnc", "--duration", "900")
 IN_PROCESSES = ("research.engines", "--engine", "exudyn", "--duration", "3")
 
 

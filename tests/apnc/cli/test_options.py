@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 from apnc import Experiment, Gait, Kerb, Obstacles, Plane, Waves, write_gait
 from apnc.cli.app import app
 from apnc.cli.walk import experiment_of
+from apnc.controllers import CONTROLLERS
 from apnc.loop.provenance import what_was_run
-from apnc_core.enumerations import Method
 from apnc_core.schema import Causality, Shape, Type
 from apnc_core.variables import variables_of
 from build_fmu.build import cached_fmu
@@ -79,7 +79,7 @@ EXPERIMENTS = st.builds(
     mi=over(st.floats(0, 1)),
     duration=st.floats(0.1, 1e9),
     seed=st.integers(0, 2**32),
-    method=st.sampled_from(list(Method.__members__)),
+    controller=st.none() | st.sampled_from(list(CONTROLLERS)),
     preset=st.sampled_from(["robot", "lilibot", "paper"]),
     settings=SETTINGS,
     ground=GROUNDS,
@@ -140,7 +140,7 @@ def test_short_forms_of_the_ground() -> None:
         (["--condition", "0:C1,5:C4"], "payload changes during the run"),
         (["--slope", "90"], "slope is 1.57"),
         (["--params", "no.json"], "no.json cannot be read"),
-        (["--robot", "hexapod", "--memory", "gait.json"], "the gait is of legs RF, RH, LF, LH"),
+        (["--robot", "hexapod", "--gait", "gait.json"], "the gait is of legs RF, RH, LF, LH"),
         (["--robot", "tripod.toml", "--condition", "C3"], "leg 'RF' is not one of"),
     ],
 )
@@ -159,15 +159,15 @@ def test_what_does_not_fit_is_said_before_the_run(
 
 def test_a_summary_gives_its_parameters_to_another_run(tmp_path: Path) -> None:
     before = Experiment(
-        method="tegotae", rate=100, settings={"xi": 0.05, "kappa_rule": 2, "robot_weight": 30.0}
+        controller="tegotae", rate=100, settings={"xi": 0.05, "kappa_rule": 2, "robot_weight": 30.0}
     )
     path = tmp_path / "summary.json"
     path.write_text(json.dumps(what_was_run(before)))
     assert said("--params", str(path)).parameters() == before.parameters()
-    # what is said on the command line wins
-    after = said("--params", str(path), "--set", "xi=0.5", "--rate", "50", "--method", "apc")
+    # what is said on the command line wins, and what a controller set goes with it
+    after = said("--params", str(path), "--set", "xi=0.5", "--rate", "50", "--controller", "apc")
     assert after.settings == {**before.settings, "xi": 0.5}
-    assert (after.rate, after.method) == (50.0, "apc")
+    assert (after.rate, after.controller) == (50.0, "apc")
 
 
 def test_the_weight_of_another_robot_is_not_taken(tmp_path: Path) -> None:
@@ -230,6 +230,6 @@ def test_a_bad_file_of_parameters_is_named(
 def test_memory_begins_where_the_gait_ended_and_set_wins(tmp_path: Path) -> None:
     gait = Gait(("RF", "RH", "LF", "LH"), (3.1, 3.2, 0.1))
     write_gait(gait, tmp_path / "gait.json")
-    words = ("--memory", str(tmp_path / "gait.json"))
+    words = ("--gait", str(tmp_path / "gait.json"))
     assert said(*words).settings == {"stored": True, "phi_stored": gait.phi}
     assert said(*words, "--set", "stored=false").settings["stored"] is False

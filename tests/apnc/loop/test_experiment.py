@@ -30,7 +30,7 @@ from apnc_core.enumerations import Method
         ({"mi": True}, "mi = True is not a number"),
         ({"turn": -2}, "turn = -2 is not in -1 ... 1"),
         ({"reset": 1}, "reset = 1 is not true or false"),
-        ({"method": "cow"}, "method 'cow' is not one of apnc, apc"),
+        ({"controller": "cow"}, "controller 'cow' is not one of apnc, apc"),
         ({"preset": "cow"}, "preset 'cow' is not one of robot, lilibot, paper"),
         ({"seed": -1}, "seed = -1 is not a whole number"),
         ({"seed": 0.5}, "seed = 0.5 is not a whole number"),
@@ -44,7 +44,10 @@ from apnc_core.enumerations import Method
         ({"duration": 0.008}, "duration = 0.008 s is not one tick; allowed: 0.01667 s and more"),
         ({"step": 0.0}, "step is 0.0"),
         ({"settings": {"cow": 1}}, "parameter 'cow' is not one of"),
-        ({"settings": {"method": "apc"}}, "method = apc is not set here, but by method"),
+        (
+            {"settings": {"method": "apc"}},
+            "method = apc is not set here, but by controller",
+        ),
         ({"settings": {"phi_stored": [1.0]}}, "phi_stored has 1 values; 4 legs take 3 or none"),
         ({"conditions": "C9"}, "conditions 'C9' are not one of"),
         ({"conditions": Conditions(damaged=("RM",))}, "leg 'RM' is not one of RF, RH, LF, LH"),
@@ -77,7 +80,7 @@ def test_the_weight_is_that_of_the_robot() -> None:
     for name in ("lilibot", "hexapod", "octopod"):
         robot = load_robot(name)
         assert Experiment(robot=name).parameters()["robot_weight"] == robot.weight
-    assert Experiment(method="tegotae").parameters()["method"] is Method.tegotae
+    assert Experiment(controller="tegotae").parameters()["method"] is Method.tegotae
 
 
 def test_equal_experiments_are_equal_however_their_numbers_came() -> None:
@@ -95,7 +98,7 @@ CHANGES: list[dict[str, Any]] = [
     {"mi": ((0, 0.08), (5, 0.09))},
     {"duration": 44},
     {"seed": 1},
-    {"method": "apc"},
+    {"controller": "apc"},
     {"preset": "paper"},
     {"settings": {"xi": 0.05}},
     {"ground": Obstacles(roughness=0.5)},
@@ -197,7 +200,7 @@ def test_what_was_run_is_plain_json(change: dict[str, Any]) -> None:
     said = json.loads(json.dumps(what_was_run(experiment), allow_nan=False))
     assert said["key"] == experiment.key()
     assert said["command"] == experiment.command()
-    assert said["parameters"]["method"] == experiment.method
+    assert said["parameters"]["method"] == experiment.controller
     assert {"apnc", "exudyn", "code", "fmpy", "numpy", "python"} <= set(said["versions"])
     assert set(experiment.changed()) == set(change)
 

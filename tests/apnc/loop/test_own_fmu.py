@@ -58,7 +58,8 @@ HELD = OWN | {"method": Method.apc}
 def test_its_values_hold_and_nothing_else_changes(own: str) -> None:
     found, usual = Experiment(fmu=own), Experiment().parameters()
     assert starts(found) == HELD
-    assert (found.rate, found.method, found.ticks) == (50.0, "apc", 45 * 50)
+    assert (found.rate, found.controller, found.ticks) == (50.0, None, 45 * 50)
+    assert found.controller_name == "apc"
     assert {n: v for n, v in found.parameters().items() if n not in OWN} == {
         n: v for n, v in usual.items() if n not in OWN
     }
@@ -87,7 +88,7 @@ def test_it_walks_with_them_in_every_loop_and_they_are_read_back(own: str, tmp_p
 def test_the_report_tells_which_of_its_values_held(own: str) -> None:
     record = simulate(Experiment(fmu=own, duration=0.1, settings={"a1": 0.2}))
     told = dict(facts(record))
-    assert told["FMU"] == own and told["Memory"] == "starts with φ 3.1 3.2 0.1 rad"
+    assert told["FMU"] == own and told["Stored gait"] == "φ 3.1 3.2 0.1 rad at the start"
     assert "robot_weight 60" in told["Start values of the FMU"]
     assert "a1" not in told["Start values of the FMU"]
     assert "FMU" not in dict(facts(simulate(Experiment(duration=0.1))))
@@ -104,7 +105,9 @@ def test_what_is_read_back_is_what_an_experiment_set() -> None:
 
 def test_what_is_set_wins(own: str) -> None:
     words = ("--set", "a1=0.2", "--set", "robot_weight=50", "--set", "stored=false")
-    found = said("--fmu", own, *words, "--set", "phi_stored=[]", "--rate", "60", "--method", "apnc")
+    found = said(
+        "--fmu", own, *words, "--set", "phi_stored=[]", "--rate", "60", "--controller", "apnc"
+    )
     assert starts(found) == {
         "a1": 0.2, "robot_weight": 50.0, "stored": False, "phi_stored": (), "Ts": 1 / 60,
         "method": Method.apnc,
@@ -124,8 +127,7 @@ def test_they_go_before_the_table_of_the_robot_which_fills_in_what_the_fmu_leave
     own: str, fmu4: Path
 ) -> None:
     tuned = replace(load_robot("lilibot"), controller={"a1": 0.21, "xi": 0.07})
-    body = replace(tuned.trunk.body, mass=2.0)
-    heavy = replace(tuned, trunk=replace(tuned.trunk, body=body))
+    heavy = replace(tuned, trunk=replace(tuned.trunk, mass=2.0))
     found = Experiment(fmu=own, robot=heavy).parameters()
     assert (found["a1"], found["xi"], found["robot_weight"]) == (0.0, 0.07, 60.0)
     # the defaults are no values of an FMU's own: with them the robot walks as with the built FMU
@@ -143,7 +145,7 @@ def test_an_fmu_of_another_robot_with_a_change_keeps_it() -> None:
 
 @pytest.mark.parametrize(
     "words",
-    [(), ("--rate", "60", "--method", "apnc"), ("--rate", "50"), ("--preset", "paper")],
+    [(), ("--rate", "60", "--controller", "apnc"), ("--rate", "50"), ("--preset", "paper")],
 )
 def test_the_command_and_the_data_say_it_again(words: tuple[str, ...], own: str) -> None:
     experiment = said("--fmu", own, *words)

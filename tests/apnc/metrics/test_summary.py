@@ -49,7 +49,17 @@ def ended(record: Record, end: End, message: str = "") -> Record:
 
 def figures(summary: Summary) -> dict[str, Any]:
     """What was measured of the gait and the motion."""
-    asked = {"method", "mi", "seed", "end", "message", "duration_s", "complete", "fell", "version"}
+    asked = {
+        "controller",
+        "mi",
+        "seed",
+        "end",
+        "message",
+        "duration_s",
+        "complete",
+        "fell",
+        "version",
+    }
     asked |= {"phi_target", "real_time_factor", "fmu_share_of_wall_time", "converged"}
     return {name: value for name, value in summary.to_dict().items() if name not in asked}
 
@@ -61,9 +71,9 @@ def is_empty(value: Any) -> bool:
 
 def test_a_known_walk() -> None:
     walk = synthetic_record(45.0, duty=0.6, speed=0.08, frequency=1.5, yaw=0.4)
-    experiment = replace(walk.experiment, mi=0.15, seed=3, method="tegotae")
+    experiment = replace(walk.experiment, mi=0.15, seed=3, controller="tegotae")
     s = summarise(replace(walk, experiment=experiment))
-    assert (s.method, s.mi, s.seed, s.version) == ("tegotae", 0.15, 3, __version__)
+    assert (s.controller, s.mi, s.seed, s.version) == ("tegotae", 0.15, 3, __version__)
     assert (s.end, s.message, s.complete, s.fell) == ("complete", "", True, False)
     assert s.duration_s == 45.0
     assert s.path_speed_m_per_s == pytest.approx(0.08)
@@ -102,7 +112,7 @@ def test_every_figure_is_in_the_dictionary_and_in_json() -> None:
     loaded = json.loads(s.to_json())
     assert list(loaded) == list(s.to_dict())
     assert loaded["duty_factor"] == s.duty_factor and loaded["phi_final"] == list(s.phi_final)
-    assert s.to_json().startswith('{\n  "method"') and s.to_json().endswith("}\n")
+    assert s.to_json().startswith('{\n  "controller"') and s.to_json().endswith("}\n")
 
 
 def test_the_path_is_the_headline() -> None:

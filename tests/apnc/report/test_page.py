@@ -354,10 +354,10 @@ def test_facts_name_robot_preset_condition_ground_parameters_and_memory() -> Non
     assert found["Robot"] == "lilibot, 2.50 kg, legs RF, RH, LF, LH"
     assert found["Controller"] == "apnc, preset robot, 60 Hz"
     assert found["Changed parameters"] == "xi 0.05, stored True"
-    assert found["Memory"] == "starts with φ 3 3 0 rad"
+    assert found["Stored gait"] == "φ 3 3 0 rad at the start"
     assert found["Conditions"] == "C4"
     assert found["Ground"] == "obstacles:roughness=0.5"
-    assert dict(facts(record))["Memory"] == "empty at the start"
+    assert dict(facts(record))["Stored gait"] == "none at the start"
 
 
 def test_page_carries_the_whole_experiment_and_the_command() -> None:

@@ -205,10 +205,12 @@ def test_it_walks_in_a_c_program_that_has_nothing_but_the_c_library(
 STORED = {"stored": True, "phi_stored": (3.1, 3.2, 0.1)}
 OTHERS = {
     "everything": Experiment(
-        mi=0.2, seed=5, turn=0.3, settings=STORED, method="apnc", step=1 / 1920, duration=SECONDS,
+        mi=0.2, seed=5, turn=0.3, settings=STORED, step=1 / 1920, duration=SECONDS,
         ground=Obstacles(slope=0.05, roughness=0.5, seed=5), conditions=Conditions(payload=0.3),
     ),
-    "enumeration": Experiment(mi=0.15, seed=2, method="tegotae", conditions="C2", duration=SECONDS),
+    "enumeration": Experiment(
+        mi=0.15, seed=2, controller="tegotae", conditions="C2", duration=SECONDS
+    ),
     "six legs": Experiment(mi=0.15, robot="hexapod", seed=3, duration=SECONDS),
 }  # fmt: skip
 

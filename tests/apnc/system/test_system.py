@@ -133,7 +133,7 @@ def test_the_parameter_sets_hold_the_preset(folder: Path, tmp_path: Path) -> Non
     assert float(controller["robot_weight"]) == pytest.approx(24.525)
     assert values(folder / "resources/plant.ssv")["seed"] == "3"
     settings = {"stored": True, "phi_stored": (3.1, 3.2, 0.1)}
-    own = Experiment(settings=settings, method="tegotae", turn=-0.5)
+    own = Experiment(settings=settings, controller="tegotae", turn=-0.5)
     folder = build_system(tmp_path / "Own.ssp", own)
     controller = values(folder / "resources/controller.ssv")
     assert controller["stored"] == "true" and controller["turn"] == "-0.5"
@@ -231,7 +231,7 @@ def test_numbers_that_no_robot_has_are_refused(numbers: dict[str, float], words:
     [
         (["build-system", "--output", "x.fmu"], "x.fmu does not end in .ssp"),
         (["build-system", "--naming", "cow"], "naming 'cow' is not one of structured"),
-        (["build-system", "--memory", "no.json"], "no.json cannot be read"),
+        (["build-system", "--gait", "no.json"], "no.json cannot be read"),
         (["build-system", "--condition", "C9"], "conditions 'C9' are not one of"),
         (["build-system", "--payload", "-1"], "payload is -1.0; allowed:"),
         (["build-system", "--set", "servo.damping=x"], "servo.damping = 'x'; allowed: a number"),
@@ -268,7 +268,7 @@ def test_the_commands_write_what_they_say(
         ["build-plant", "--platform", "host", "--fmi", "3", "--output", "Three.fmu"],
         [
             "build-system",
-            "--memory",
+            "--gait",
             "gait.json",
             "--mi",
             "0.2",

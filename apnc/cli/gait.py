@@ -1,4 +1,4 @@
-"""``apnc memory``: learned gaits as files."""
+"""``apnc gait``: stored gaits as files."""
 # ruff: noqa: PLC0415  # what takes long to import waits until it is needed
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 FORMATS: Final = ("json", "ssv")
 
-app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Learned gaits as files.")
+app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Save and show stored gaits.")
 
 
 @app.command("save")
@@ -28,7 +28,7 @@ def save(
         str, typer.Option("--format", help="json for apnc walk, ssv for tools of SSP.")
     ] = "json",
 ) -> None:
-    """Write the gait that a run has stored."""
+    """Write the gait that the couplings hold at the end of a walk."""
     if form not in FORMATS:
         raise ValueError(f"format '{form}' is not one of {', '.join(FORMATS)}")
     apart({"file": file}, {"the run": [run / name for name in RUN_FILES]})
@@ -45,7 +45,7 @@ def save(
 
 @app.command("show")
 def show(file: Annotated[Path, typer.Argument(help="Gait file.")]) -> None:
-    """Show a gait file."""
+    """Show a stored gait."""
     say(_in_words(apnc.read_gait(file)))
 
 
