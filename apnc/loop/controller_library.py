@@ -44,6 +44,12 @@ _FUNCTIONS: Final = {
 }
 """Members of ``loop_functions`` and the functions of FMI 2.0 they stand for."""
 
+_INPUTS: Final = ("grf", "MI", "turn")
+"""Real inputs in the order in which ``loop.h`` has them."""
+
+_COMMANDS: Final = ("theta_hip", "theta_knee")
+"""Outputs in the order in which ``loop.h`` has them, before all others."""
+
 _KINDS: Final = {Type.real: "real", Type.boolean: "boolean"}
 """Type of a variable and its group in ``loop_starts``; the others are integers."""
 
@@ -58,7 +64,7 @@ class ControllerLibrary:
         n_legs: number of legs.
         guid: of the FMU, for C.
         functions, variables: ``loop_functions`` and ``loop_variables`` of C.
-        recorded: variables in the order of a row of the record in C.
+        recorded: scalar variables in the order of the record in C.
         sizes: how many entries each variable has in it, by name, in its order.
         parameters: in the order in which C reads them back.
 
@@ -96,23 +102,24 @@ class ControllerLibrary:
         ffi, _ = library()
         members = list(scalars(self.n_legs, self._naming))
 
+        def named(*names: str) -> list[Scalar]:
+            return [m for name in names for m in self._members[name]]
+
         def those(kind: Type, *causes: Causality) -> list[Scalar]:
             return [
                 m for m in members if m.variable.type is kind and m.variable.causality in causes
             ]
 
         shown = (Causality.output, Causality.local)
-        inputs, reset = those(Type.real, Causality.input), those(Type.boolean, Causality.input)
-        outputs = those(Type.real, *shown)
-        commands = [m for m in outputs if m.variable.name in ("theta_hip", "theta_knee")]
-        outputs = commands + [m for m in outputs if m not in commands]
+        inputs, reset, commands = named(*_INPUTS), named("reset"), named(*_COMMANDS)
+        outputs = commands + [m for m in those(Type.real, *shown) if m not in commands]
         whole, flags = those(Type.integer, *shown), those(Type.boolean, *shown)
         self.recorded = [*inputs, *reset, *outputs, *whole, *flags]
         self._references = [
             ffi.new("uint32_t[]", [m.value_reference for m in group] or 1)
             for group in (inputs, reset, outputs, whole, flags)
         ]
-        named = dict(
+        groups = dict(
             zip(("inputs", "reset", "reals", "integers", "booleans"), self._references, strict=True)
         )
         counts = {"n_reals": len(outputs), "n_integers": len(whole), "n_booleans": len(flags)}
@@ -120,7 +127,7 @@ class ControllerLibrary:
         self._references.append(ffi.new("int32_t[]", list(self.sizes.values())))
         sizes = {"sizes": self._references[-1], "n_sizes": len(self.sizes)}
         read_back = self._read_back(members)
-        fields = {"legs": self.n_legs, **named, **counts, **sizes, **read_back}
+        fields = {"legs": self.n_legs, **groups, **counts, **sizes, **read_back}
         self.variables = ffi.new("loop_variables *", fields)
 
     def _read_back(self, members: Sequence[Scalar]) -> dict[str, Any]:

@@ -50,6 +50,10 @@ class Block:
         self.view: Any = np.frombuffer(buffer, dtype=np.float64 if real else np.intc)
         self.places = {m.variable: slice(at - m.element, at + 1) for at, m in enumerate(members)}
 
+    def by_name(self) -> dict[str, Array]:
+        """The entries of each variable, by its name, in the memory of the block."""
+        return {variable.name: self.view[place] for variable, place in self.places.items()}
+
 
 def names_in(description: Any) -> tuple[int, str]:
     """Number of legs of a controller FMU and the naming of its variables.
@@ -268,11 +272,10 @@ class FmuController(contextlib.ExitStack):
             block("GetInteger", Type.integer, *outputs),
             block("GetBoolean", Type.boolean, *outputs),
         )
-        reals = self._read[0]
-        self.phi, self.theta_hip, self.theta_knee = (
-            reals.view[reals.places[variable_named(name)]]
-            for name in ("phi", "theta_hip", "theta_knee")
-        )
+        self._inputs = {n: view for each in self._written for n, view in each.by_name().items()}
+        shown = self._read[0].by_name()
+        self.phi, self.theta_hip = shown["phi"], shown["theta_hip"]
+        self.theta_knee = shown["theta_knee"]
 
     def set(self, name: str, value: SettingLike) -> None:
         """Set a tunable parameter between two steps.
@@ -299,10 +302,8 @@ class FmuController(contextlib.ExitStack):
             FmuError: the FMU refused.
         """
         component, begin = self._fmu.component, time.perf_counter()
-        commands, flags = self._written
-        commands.view[:-2] = grf
-        commands.view[-2:] = MI, turn
-        flags.view[0] = reset
+        for name, value in (("grf", grf), ("MI", MI), ("turn", turn), ("reset", reset)):
+            self._inputs[name][:] = value
         try:
             for block in self._written:
                 block.call(component, *block.arguments)
