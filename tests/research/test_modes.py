@@ -100,6 +100,22 @@ def test_the_reduced_plant_stands_still_on_its_feet() -> None:
                                rtol=1e-6)  # fmt: skip
 
 
+def test_loads_and_motion_of_the_reduced_plant_fit_at_the_end_of_a_step() -> None:
+    """Implicit Euler: springs and dampers push by the heights and rates that the step leads to."""
+    plant, hip, knee = SpringTrunk(load_robot("lilibot"), substeps=1), np.zeros(4), np.full(4, 0.02)
+    feet, dt = plant._stance, 1 / 240
+    for _ in range(5):
+        before = plant._v
+        plant.advance(hip, knee, dt)
+        height, rise = feet.rigid @ plant._q, feet.rigid @ plant._v
+        expected = feet.stiffness * (plant._wanted(hip, knee) - height - feet.lag * rise)
+        np.testing.assert_allclose(plant.load, expected, rtol=1e-9)
+        gained = plant._inertia @ (plant._v - before) / dt
+        pushed = feet.rigid.T @ plant.load - np.array([feet.weight, 0.0, 0.0])
+        np.testing.assert_allclose(gained, pushed, atol=1e-9)
+        assert (plant.load > 0.0).all() and np.abs(rise).max() > 1e-3
+
+
 def test_the_reduced_plant_lifts_a_foot_whose_leg_is_drawn_in() -> None:
     plant, hip = SpringTrunk(load_robot("hexapod")), np.zeros(6)
     for _ in range(120):

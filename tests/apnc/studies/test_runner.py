@@ -1,4 +1,4 @@
-"""The engine: results that are kept, run again, and the same wherever they run."""
+"""The runner: results that are kept, run again, and the same wherever they run."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from made_up_results import quick
 
 from apnc import controllers
 from apnc.controllers import CONTROLLERS
@@ -26,20 +26,11 @@ from apnc.studies import runner, store
 from apnc.studies.registry import STUDIES
 from apnc.studies.results import Result, id_of
 from apnc.studies.runner import grid_of, run_study, run_trial, run_trials
-from apnc.studies.store import Store
 from apnc.studies.study import Study, Trial, load
-from apnc.studies.workers import CHUNK, chunks_of, results_of
 from apnc_plant.robot import ROBOTS
 from build_fmu.build import host_fmu
-from research.registry import STUDIES as RESEARCH
 
 SHORT: dict[str, Any] = {"trials": 1, "duration": 1.0, "chosen": {"mi": [0.08]}}
-
-
-def quick(trial: Trial) -> Result:
-    """A result without a run."""
-    rest = {"version": "0", "fell": False, "end": "complete", "error": ""}
-    return {"study": trial.study, "key": trial.id.key, **trial.cell, **rest}
 
 
 Made = Callable[[Trial], Result]
@@ -307,119 +298,7 @@ def test_studies_of_the_product_walk_in_c(tmp_path: Path, no_runs: list[str]) ->
     assert "<dt>engine</dt><dd>compiled</dd>" in (tmp_path / "report.html").read_text()
 
 
-def test_other_engines_walk_in_processes_and_say_what_they_need(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    asked: dict[str, Any] = {"trials": 2, "duration": 0.5}
-    asked["chosen"] = {"engine": ["compiled", "exudyn"], "mi": [0.08]}
-    results = run_study("engines", **asked, studies=RESEARCH, workers=2)
-    assert results == run_study("engines", **asked, studies=RESEARCH)
-    assert [result["engine"] for result in results] == ["compiled"] * 2 + ["exudyn"] * 2
-    assert all(result["error"] == "" for result in results)
-    monkeypatch.setitem(sys.modules, "loky", None)
-    with pytest.raises(ValueError, match=r"engine exudyn needs the extra 'study': pip install"):
-        run_study("engines", **asked, studies=RESEARCH, workers=2)
-    assert len(run_study("damage", trials=1, duration=0.5, workers=2)) == 5
-
-
-def test_a_chunk_is_of_one_kind_and_another_engine_goes_by_itself() -> None:
-    rates = grid_of("rate", 20, ["apnc"], {"rate": [60.0, 30.0]})
-    others = grid_of("engines", 2, chosen={"engine": ["exudyn"], "mi": [0.08]}, studies=RESEARCH)
-    chunks = chunks_of([*others, *rates[:5], *rates[20:], *rates[5:20]])
-    assert [len(chunk) for chunk in chunks] == [20, 20, 1, 1]
-    assert all(len({trial.experiment.rate for trial in chunk}) == 1 for chunk in chunks)
-    assert [len(c) for c in chunks_of(grid_of("damage", 5 * CHUNK, ["apnc"]))] == [CHUNK] * 5
-
-
-def test_no_further_chunk_begins_after_a_stop() -> None:
-    trials = grid_of("engines", 6, chosen={"engine": ["exudyn"], "mi": [0.08]}, studies=RESEARCH)
-    begun: list[Trial] = []
-
-    def walk(
-        trials: Sequence[Trial], *, workers: int, stop: Callable[[], bool]
-    ) -> Iterator[Result]:
-        begun.extend(trials)
-        return map(quick, trials)
-
-    with ThreadPoolExecutor(2) as executor:
-        results = results_of(
-            trials, walk, executor, workers=2, cluster=False, stop=lambda: len(begun) >= 2
-        )
-        assert len(list(results)) == len(begun) < 6
-
-
-# --- results on disk ------------------------------------------------------------------------------
-
-
-def result(key: str, **more: Any) -> Result:
-    return {"study": "mi", "controller": "apnc", "key": key, **more}
-
-
-def test_a_torn_line_is_dropped_and_the_rest_kept(tmp_path: Path) -> None:
-    path = tmp_path / "trials.jsonl"
-    kept = Store(path)
-    kept.add(result("a", x=1))
-    kept.add(result("b", x=2))
-    kept.close()
-    path.write_bytes(path.read_bytes()[:-4])
-    kept = Store(path)
-    assert kept.results == {("mi", "apnc", "a"): result("a", x=1)}
-    kept.add(result("b", x=2))
-    kept.close()
-    assert [json.loads(line)["key"] for line in path.read_text().splitlines()] == ["a", "b"]
-
-
-def test_a_damaged_line_costs_its_own_trial_only(tmp_path: Path) -> None:
-    path = tmp_path / "trials.jsonl"
-    whole = json.dumps(result("b"))
-    path.write_text(f'{{"study": "mi"\n"text"\n{{"key": "a"}}\n{whole}\n')
-    kept = Store(path)
-    assert list(kept.results) == [("mi", "apnc", "b")]
-    kept.close()
-
-
-def test_a_result_is_in_the_file_at_once(tmp_path: Path) -> None:
-    kept = Store(tmp_path / "t.jsonl")
-    kept.add(result("a"))
-    text = (tmp_path / "t.jsonl").read_text()
-    found = json.loads(text)
-    assert text.endswith("}\n") and found.pop("wall_s") >= 0.0 and found == result("a")
-    kept.close()
-
-
-def test_the_disk_is_waited_for_once_a_second_and_at_the_end(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    now, waited = [0.0], list[float]()
-    monkeypatch.setattr(store.time, "perf_counter", lambda: now[0])
-    monkeypatch.setattr(store.os, "fsync", lambda file: waited.append(now[0]))
-    with Store(tmp_path / "t.jsonl") as kept:
-        for now[0] in (0.5, 0.9, 1.1, 1.2, 2.0, 2.3, 2.4):
-            kept.add(result("a"))
-    assert waited == [1.1, 2.3, 2.4]
-
-
-@pytest.mark.skipif(os.name == "nt", reason="Windows has no such locks")
-def test_a_file_that_another_study_writes_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "trials.jsonl"
-    with Store(path) as kept:
-        kept.add(result("a"))
-        with pytest.raises(ValueError, match=r"trials\.jsonl is being written by another study"):
-            Store(path)
-        kept.add(result("b"))
-    with Store(path) as again:
-        assert [key for _, _, key in again.results] == ["a", "b"]
-
-
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
-def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
-    kept = Store(tmp_path / "t.jsonl")
-    kept._file = Path("/dev/full").open("ab")  # noqa: SIM115
-    with pytest.raises(OSError, match="No space left on device: '/dev/full'"):
-        kept.add(result("a"))
-
-
-# --- kill, Dask --------------------------------------------------------------------------------
+# --- kill --------------------------------------------------------------------------------------
 
 KILLED = """
 import sys
@@ -445,49 +324,3 @@ def test_a_killed_study_resumes_without_loss_or_repetition(tmp_path: Path) -> No
     results = run_study("damage", trials=1, duration=10.0, output=tmp_path, resume=True)
     assert lines(tmp_path)[: len(before)] == before
     assert len(results) == len({id_of(result) for result in results}) == 5
-
-
-@pytest.fixture
-def cluster(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
-    """A real Dask scheduler and two workers on loopback, each a process of its own."""
-    pytest.importorskip("distributed", reason="the extra cluster is not installed")
-    quiet: Any = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": tmp_path}
-    file = tmp_path / "scheduler.json"
-    dask = [sys.executable, "-m", "dask"]
-    options = ["--host", "127.0.0.1", "--port", "0", "--no-dashboard"]
-    start = [*dask, "scheduler", *options, "--scheduler-file", str(file)]
-    processes = [subprocess.Popen(start, **quiet)]
-    try:
-        while not (file.is_file() and file.read_text()):
-            assert processes[0].poll() is None
-            time.sleep(0.1)
-        address = json.loads(file.read_text())["address"]
-        worker = [*dask, "worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"]
-        processes += [subprocess.Popen(worker, **quiet) for _ in range(2)]
-        yield address, processes
-    finally:
-        for process in processes:
-            process.kill()
-            process.wait()
-
-
-def test_dask_gives_the_same_results_though_a_worker_is_killed(
-    cluster: tuple[str, list[subprocess.Popen[bytes]]],
-) -> None:
-    address, processes = cluster
-    asked: dict[str, Any] = {"trials": 2 * CHUNK, "duration": 5.0}
-    here = run_study("damage", **asked)
-
-    def kill_one(done: int, *_: float) -> None:
-        if 0 < done < len(here):
-            processes[1].kill()
-
-    there = run_study("damage", **asked, scheduler=address, progress=kill_one)
-    assert processes[1].wait() != 0
-    assert there == here and all(result["error"] == "" for result in here)
-
-
-def test_no_scheduler_is_said() -> None:
-    pytest.importorskip("distributed", reason="the extra cluster is not installed")
-    with pytest.raises(ValueError, match="no Dask scheduler at moo"):
-        run_study("damage", scheduler="moo")
