@@ -8,12 +8,12 @@
 
 enum { LOOP_MOST_LANES = 8, LOOP_MOST_LEGS = 64, LOOP_ALIGNMENT = 64 };
 
-/* The controller's wall time is taken at one tick of so many. */
+/* The controller's wall time is measured at one in this many ticks. */
 #define LOOP_TIMED 16
 
-/* FMI 2.0, chapter 2.1 and 4.2; its types on all platforms. */
+/* Types of FMI 2.0, chapters 2.1 and 4.2, which are the same on all platforms. */
 typedef void *fmu_component;
-typedef int fmu_status; /* 0: fine, 1: warning, more: failed */
+typedef int fmu_status; /* 0: success, 1: warning, above: failure */
 enum { FMU_WARNING = 1, FMU_ERROR = 3, FMU_CO_SIMULATION = 1 };
 
 typedef struct {
@@ -36,14 +36,14 @@ typedef fmu_status fmu_do_step(fmu_component, double, double, int);
 typedef fmu_status fmu_get_real(fmu_component, const uint32_t *, size_t, double *);
 typedef fmu_status fmu_get_integer(fmu_component, const uint32_t *, size_t, int32_t *);
 
-/* A function by its address: a pointer to data is turned into one to a function as POSIX has it. */
+/* A function from its address. POSIX allows to convert a data pointer to a function pointer. */
 #define FUNCTION(type, address) (*(type **)(void *)&(address))
 
 typedef struct {
     loop_run *run;
     fmu_component controller;
     fmu_callbacks callbacks;
-    int32_t mi, turn, reset, condition; /* which value of each schedule holds */
+    int32_t mi, turn, reset, condition; /* index of the value of each schedule that holds */
 } loop_lane;
 
 typedef struct {
@@ -51,9 +51,8 @@ typedef struct {
     const loop_variables *variables;
     double Ts, step;
     int32_t lanes;
-    size_t plant; /* [bytes] from the start */
-    size_t
-        outputs; /* numbers that are read from the controller, of which there is room for reals */
+    size_t plant;   /* [bytes] from the start */
+    size_t outputs; /* count of numbers read from the controller, and room for the reals */
     loop_lane lane[LOOP_MOST_LANES];
     const plant_ground *ground[LOOP_MOST_LANES];
 } loop;
@@ -89,7 +88,7 @@ loop_run *loop_run_in(const void *memory, int32_t lane) {
     return ((const loop *)memory)->lane[lane].run;
 }
 
-/* What the controller says of an error is why the run ended. */
+/* The controller's message about an error becomes the message of the run. */
 static void log_message(void *environment, const char *name, fmu_status status,
                         const char *category, const char *message, ...) {
     loop_run *run = (loop_run *)environment;
@@ -111,14 +110,15 @@ static void end_run(loop *l, int32_t lane, int32_t end) {
     l->ground[lane] = NULL;
 }
 
-/* The controller refused; what it said stays, or else the call that failed. */
+/* End a run that the controller refused. Its message stays; if there is none, the failed call is
+ * named. */
 static void refuse(loop *l, int32_t lane, const char *call) {
     loop_run *run = l->lane[lane].run;
     if (!run->message[0]) snprintf(run->message, sizeof run->message, "%s failed", call);
     end_run(l, lane, LOOP_REFUSED);
 }
 
-/* Read back what the controller starts with; the call that failed. */
+/* Read back the start values of the controller. Returns the call that failed, or NULL. */
 static const char *read_parameters(const loop *l, const loop_lane *at) {
     const loop_functions *f = l->functions;
     const loop_variables *v = l->variables;
@@ -142,7 +142,7 @@ static const char *read_parameters(const loop *l, const loop_lane *at) {
     return NULL;
 }
 
-/* Call of the controller that failed; NULL if none did. */
+/* Start the controller. Returns the call that failed, or NULL. */
 static const char *start_controller(loop *l, int32_t lane) {
     loop_lane *at = &l->lane[lane];
     const loop_run *run = at->run;
@@ -192,13 +192,14 @@ static double now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Value of a schedule at a tick; `at` is which one held before. */
+/* Value of a schedule at a tick; `at`: index of the value that held before. */
 static double value_at(const loop_schedule *schedule, int32_t tick, int32_t *at) {
     while (*at + 1 < schedule->n && schedule->tick[*at + 1] <= tick) ++*at;
     return schedule->value[*at];
 }
 
-/* Let the controller take tick `n` and read what it shows into `outputs`; the call that failed. */
+/* Let the controller compute tick `n` and read its outputs. Returns the call that failed, or NULL.
+ */
 static const char *step_controller(loop *l, loop_lane *at, int32_t n, const double *inputs,
                                    int32_t reset, double *outputs) {
     const loop_functions *f = l->functions;
@@ -229,7 +230,8 @@ static const char *step_controller(loop *l, loop_lane *at, int32_t n, const doub
     return NULL;
 }
 
-/* A row into a record: variable after variable, each of which has all of its ticks together. */
+/* Write the values of one variable at this tick; a record keeps all ticks of a variable together.
+ */
 static void record_row(double *record, const loop_run *run, const double *row, int32_t size) {
     memcpy(record + (size_t)run->count * (size_t)size, row, (size_t)size * sizeof *row);
 }
@@ -257,7 +259,7 @@ static void record_plant(const loop *l, int32_t lane, const loop_run *run) {
     }
 }
 
-/* The first half of a tick of a lane: conditions, controller, record, command. */
+/* First half of a tick of a lane: conditions, controller, record, command. */
 static const char *control(loop *l, int32_t lane) {
     loop_lane *at = &l->lane[lane];
     loop_run *run = at->run;
@@ -281,7 +283,7 @@ static const char *control(loop *l, int32_t lane) {
     return NULL;
 }
 
-/* The second half, once the robots have moved: whether a run has ended. */
+/* Second half, after the robots have moved: whether and how a run has ended. */
 static int32_t end_of(const loop *l, int32_t lane) {
     const loop_run *run = l->lane[lane].run;
     const int32_t state = plant_state_of(plant_in(l), lane);

@@ -1,12 +1,12 @@
-/* Closed loops of controller FMU and robot, several side by side: the co-simulation master in C.
+/* Closed loops of controller FMU and plant, several side by side: the co-simulation master in C.
  *
- * A loop has the lanes of a plant; in every lane a run of its own walks, and a lane whose run has
- * ended takes the next. The controller is any FMU of FMI 2.0, called through its functions.
+ * A loop has the lanes of a plant. Every lane holds a run of its own, and a lane whose run has
+ * ended takes the next. The controller is any FMU of FMI 2.0; it is called through its functions.
  *
- * At tick n the controller gets the loads that the sensors show at n Ts, and its commands act on
- * the servos from n Ts to (n + 1) Ts: what a control computer on the robot does.
+ * At tick n the controller gets the loads that the sensors show at n Ts. Its commands act on the
+ * servos from n Ts to (n + 1) Ts, as those of a control computer on the robot do.
  *
- * Python reads this header as it is, after plant.h.
+ * Python parses this header with cffi, after plant.h.
  */
 #ifndef LOOP_H
 #define LOOP_H
@@ -24,7 +24,7 @@ typedef struct {
     void *get_real, *get_integer, *get_boolean;
 } loop_functions;
 
-/* Which variables are read and written, the same for all runs of a loop. */
+/* Value references that are read and written, the same for all runs of a loop. */
 typedef struct {
     int32_t legs;
     const uint32_t *inputs; /* loads of the legs, MI, turn: legs + 2 of type Real */
@@ -78,11 +78,11 @@ typedef struct {
     const plant_ground *ground;        /* */
     uint64_t seed;                     /* of the noise of the sensors */
     const double *coordinates;         /* start, as plant_place takes them */
-    double height;                     /* [m] of the trunk above that */
+    double height;                     /* [m] of the trunk above these coordinates */
     int32_t ticks;                     /* planned */
     loop_schedule mi, turn, reset;     /* */
     int32_t n_conditions;              /* */
-    const int32_t *condition_tick;     /* from which each holds; the first is 0 */
+    const int32_t *condition_tick;     /* tick from which each condition holds; the first is 0 */
     const plant_conditions *condition; /* */
     double *plant_record;      /* the signals of plant_sample one after the other, each of `ticks`
                                   times its size; NULL: none */
@@ -90,14 +90,14 @@ typedef struct {
                                   size; NULL: none */
     double *parameters;        /* as the controller has them at the start: reals, then integers,
                                   then booleans, one after the other; NULL: none */
-    /* written here */
+    /* results */
     int32_t count;       /* ticks taken */
     int32_t end;         /* LOOP_... */
-    double controller_s; /* [s] wall time in the controller, estimated from some ticks */
-    char message[256];   /* what broke down */
+    double controller_s; /* [s] wall time in the controller, estimated from a sample of ticks */
+    char message[256];   /* why the run ended early */
 } loop_run;
 
-/* Bytes of a loop; arguments as plant_size. */
+/* Size of a loop in bytes; arguments as of plant_size. */
 size_t loop_size(int32_t kind, int32_t level, int32_t legs, int32_t contacts, int32_t history);
 
 /* Make the bytes at `memory` (aligned to 64) a loop without runs.
@@ -114,15 +114,15 @@ int32_t loop_lanes(const void *loop);
 /* Begin a run in a lane that has none. A controller that refuses ends it at once. */
 void loop_begin(void *loop, int32_t lane, loop_run *run);
 
-/* Walk until a run has ended, or for so many ticks, or until *stop is not 0 (NULL: never).
+/* Walk until a run has ended, `ticks` ticks have passed or *stop is not 0 (stop may be NULL).
  *
- * Returns the number of runs that have ended; their lanes have none from then on. */
+ * Returns the number of runs that have ended; their lanes are empty from then on. */
 int32_t loop_walk(void *loop, int32_t ticks, const volatile int32_t *stop);
 
-/* The run in a lane; NULL: none. */
+/* The run in a lane, or NULL. */
 loop_run *loop_run_in(const void *loop, int32_t lane);
 
-/* Give back what the controllers hold, of runs that have not ended. */
+/* Free the controllers of the runs that have not ended. */
 void loop_free(void *loop);
 
 #ifdef __cplusplus

@@ -10,16 +10,17 @@ typedef struct {
     B damping;   /* [N s/m] c */
     B per_depth; /* [1/m] one over the depth d_c over which the damping sets in */
     B friction;  /* [1] mu */
-    B slow;      /* [m/s] below this sliding speed friction is proportional to it */
+    B slow;      /* [m/s] sliding speed below which friction is proportional to it */
 } contact_numbers;
 
-/* Normal: max(0, k d + c min(1, d/d_c) d'), so that damping sets in with the depth d instead of
- * jumping at first touch (after Hunt and Crossley, 1975), and never pulls. Tangential: Coulomb,
- * proportional to the sliding speed below `slow`, or below the speed from which friction stops the
- * foot within one step, mu F h / m, where that is more.
+/* Normal force: max(0, k d + c min(1, d/d_c) d'). Damping sets in with the depth d instead of
+ * jumping at first touch (after Hunt and Crossley, 1975), and the ground never pulls. Tangential
+ * force: Coulomb friction, proportional to the sliding speed below a threshold. The threshold is
+ * `slow`, or mu F h / m where that is larger: the speed from which friction stops the foot within
+ * one step.
  *
- * normal: of the surface, pointing out of it; depth [m]: no force where it is not above 0;
- * velocity of the foot at the place of contact [m/s], in the frame of the normal; stopping: step h
+ * normal: of the surface, pointing out of it; depth [m]: there is no force unless it is above 0;
+ * velocity: of the foot at the contact point [m/s], in the frame of the normal; stopping: step h
  * over apparent mass m of a foot [s/kg]; press: normal force [N]. */
 INL v3 contact_force(const contact_numbers *c, v3 normal, V depth, v3 velocity, B stopping,
                      V *press) {

@@ -1,9 +1,10 @@
 /* Equations of motion of a trunk with legs, for any number of lanes.
  *
- * Every leg is a chain of three links: its composite inertia is gathered from the foot inward
- * (Featherstone 2008, chapter 6), its three joints are eliminated (L D L'), and what is left is
- * added to the trunk: a Schur complement of six unknowns, so the cost grows linearly with the legs.
- * Accelerations are those in a frame that falls freely; gravity is taken off at the end. */
+ * Every leg is a chain of three links. Its composite inertia is summed from the foot inward
+ * (Featherstone 2008, chapter 6), its three joints are eliminated (L D L'), and the remainder is
+ * added to the trunk. This leaves a Schur complement of six unknowns, so the cost grows linearly
+ * with the number of legs. Accelerations are computed in a freely falling frame; gravity is
+ * subtracted at the end. */
 #ifndef PLANT_DYNAMICS_H
 #define PLANT_DYNAMICS_H
 
@@ -14,11 +15,11 @@
 typedef struct {
     B sr, cr, sp, cp; /* sine and cosine of roll and pitch */
     rotation turn;    /* from trunk to world */
-    b3 w, v;          /* [rad/s], [m/s] in its axes */
-    b3 up;            /* normal of the ground in its axes */
-    B height;         /* [m] of its reference point over the plane of the ground */
-    rotation ground;  /* from ground to trunk, row by row; not for planes */
-    b3 at;            /* [m] its reference point in the frame of the ground; not for planes */
+    b3 w, v;          /* [rad/s], [m/s] in the axes of the trunk */
+    b3 up;            /* normal of the ground in the axes of the trunk */
+    B height;         /* [m] of the reference point over the plane of the ground */
+    rotation ground;  /* from ground to trunk, row by row; not set for planes */
+    b3 at;            /* [m] reference point in the frame of the ground; not set for planes */
 } trunk_motion;
 
 INL b3 column(const rotation *r, int i) {
@@ -54,12 +55,13 @@ INL trunk_motion trunk_moves(const plant_parts *p) {
     return m;
 }
 
-/* Place and motion of a leg. Axes of the leg: the trunk's, turned by the abduction. */
+/* Position and motion of a leg. The axes of the leg are the trunk's, turned by the abduction. */
 typedef struct {
-    V c1, s1, ca, sa, cb, sb;   /* cosine and sine of abduction, and of the slopes of the links */
-    v3 femur, tibia;            /* [m] hip to knee, knee to foot, axes of the leg */
-    v3 foot;                    /* [m] centre of the foot, axes of the trunk */
-    twist first, second, third; /* of the links at their joints, axes of the leg */
+    V c1, s1, ca, sa, cb,
+        sb;          /* cosine and sine of the abduction and of the angles of femur and tibia */
+    v3 femur, tibia; /* [m] hip to knee, knee to foot, in the axes of the leg */
+    v3 foot;         /* [m] centre of the foot, in the axes of the trunk */
+    twist first, second, third; /* of the links at their joints, in the axes of the leg */
 } leg_motion;
 
 INL leg_motion leg_moves(const leg_numbers *n, const V *q, const V *qd, v3 w, v3 v) {
@@ -83,7 +85,7 @@ INL leg_motion leg_moves(const leg_numbers *n, const V *q, const V *qd, v3 w, v3
     return m;
 }
 
-/* What the ground does to the feet of a group of legs. */
+/* Action of the ground on the feet of a group of legs. */
 typedef struct {
     v3 force;  /* [N] in the axes of the legs */
     v3 moment; /* [N m] about the knees */
@@ -102,7 +104,7 @@ INL void add_push(const plant_parts *p, const leg_motion *m, v3 normal, V depth,
     sum->load += press;
 }
 
-/* Contacts with a ground that is no plane: its touch function is asked lane by lane. */
+/* Contacts with a ground that is not a plane: its touch function is called lane by lane. */
 INL push push_uneven(const plant_parts *p, const plant_ground *const *grounds,
                      const trunk_motion *t, const leg_motion *m, int32_t group, B stopping) {
     const V zero = v_all(0.0);
@@ -164,19 +166,19 @@ INL push push_of_ground(const plant_parts *p, const plant_ground *const *grounds
     return sum;
 }
 
-/* Sums over the legs: lower triangle of the trunk's six equations, first moment, mass, right side.
- */
+/* Entries of the sums over the legs: lower triangle of the trunk's six equations, first moment,
+ * mass, right side. */
 enum { SUM_H = 21, SUM_M = 24, SUM_X = 25, SUMS = 31 };
 #define LOWER(i, j) ((i) * ((i) + 1) / 2 + (j))
 
-/* A leg on its own: bias forces, composite inertia and the elimination of its joints. What the
- * trunk gets of it is written to `part`. */
+/* Inward pass of a leg: bias forces, composite inertia and elimination of its joints. Its
+ * contribution to the trunk's equations is written to `part`. */
 INL void leg_inward(const robot_numbers *robot, const leg_numbers *n, const leg_motion *m,
                     const V *qd, const V *torque, const push *ground, leg_kept *k, V part[SUMS]) {
     const V zero = v_all(0.0), rotor = wide(robot->reflected_inertia);
     const twist T1 = m->first, T2 = m->second, T3 = m->third;
     const v3 r = n->hip, d = m->femur;
-    /* accelerations without those of the coordinates */
+    /* accelerations of the links without those of the coordinates */
     const twist a1 = {{zero, T1.w.z * qd[0], -T1.w.y * qd[0]},
                       {zero, T1.v.z * qd[0], -T1.v.y * qd[0]}};
     twist a2 = {a1.w, v_add(a1.v, v_cross(a1.w, r))};
@@ -189,7 +191,7 @@ INL void leg_inward(const robot_numbers *robot, const leg_numbers *n, const leg_
     a3.w.z += T3.w.x * qd[2];
     a3.v.x -= T3.v.z * qd[2];
     a3.v.z += T3.v.x * qd[2];
-    /* wrenches that these take, less what the ground gives, from the foot inward */
+    /* wrenches that these accelerations need, minus those of the ground, from the foot inward */
     const v_inertia i3 = turned_y(m->cb, m->sb, &n->link[2]);
     const v_inertia i2 = turned_y(m->ca, m->sa, &n->link[1]);
     wrench f3 = newton_euler(&i3, T3, a3);
@@ -239,7 +241,7 @@ INL void leg_inward(const robot_numbers *robot, const leg_numbers *n, const leg_
     }
     for (int i = 0; i < 6; i++) G[1][i] -= l32 * G[0][i];
     for (int i = 0; i < 6; i++) G[2][i] -= l31 * G[0][i] + l21 * G[1][i];
-    /* what the trunk gets */
+    /* contribution to the trunk's equations */
     const v3 force = about_x(m->c1, m->s1, f1.f);
     const v3 moment = v_add(about_x(m->c1, m->s1, f1.n), v_cross(n->mount, force));
     const V bias[6] = {moment.x, moment.y, moment.z, force.x, force.y, force.z};
@@ -269,7 +271,7 @@ INL void leg_inward(const robot_numbers *robot, const leg_numbers *n, const leg_
     k->l21 = l21;
 }
 
-/* Moment and force on the trunk, in its axes, of springs and dampers on its coordinates. */
+/* Add moment and force of the suspension on the trunk, in its axes. */
 INL void add_suspension(const robot_numbers *n, const trunk_state *s, const trunk_motion *m,
                         B x6[6]) {
     const B q[6] = {s->x.x, s->x.y, s->x.z, s->yaw, s->pitch, s->roll};
@@ -295,7 +297,7 @@ typedef struct {
     B xx, xy, yy, xz, yz, zz;
 } symmetric;
 
-/* Its inverse, by cofactors: one division, and little that waits for something else. */
+/* Inverse by cofactors: one division, and few operations that depend on one another. */
 INL symmetric inverse(symmetric a) {
     const B xx = a.yy * a.zz - a.yz * a.yz, xy = a.xz * a.yz - a.xy * a.zz;
     const B xz = a.xy * a.yz - a.xz * a.yy;
@@ -341,7 +343,7 @@ INL void solve_trunk(const B A[21], B z[6]) {
     z[5] = v.z;
 }
 
-/* Equations of the trunk without legs: inertia, and minus what keeps it moving. */
+/* Equations of the trunk without legs: inertia on the left, minus the bias forces on the right. */
 INL void trunk_alone(const robot_numbers *robot, const trunk_motion *m, B sum[SUMS]) {
     const b_inertia *t = &robot->trunk;
     const b3 wh = b_cross(m->w, t->h);
@@ -371,7 +373,7 @@ INL void add_linear_part(B sum[SUMS]) {
     for (int i = 3; i < 6; i++) sum[LOWER(i, i)] += mass;
 }
 
-/* Accelerations of the joints of a leg, from that of the trunk. */
+/* Outward pass: accelerations of the joints of a leg from that of the trunk. */
 INL void leg_outward(const leg_kept *k, const B z[6], V qdd[3]) {
     V a[3];
     for (int j = 0; j < 3; j++) {
@@ -399,8 +401,8 @@ INL void trunk_outward(const robot_numbers *n, const trunk_motion *m, const B z[
     s->rolldd = al.x + m->cp * s->pitchd * s->yawd + m->sp * s->yawdd;
 }
 
-/* Accelerations from coordinates, speeds and targets. dt: length of the step that begins [s], for
- * the bound of friction and for the work of the servos. */
+/* Accelerations from coordinates, speeds and targets. dt: length of the step that begins [s]; the
+ * friction threshold and the work of the servos need it. */
 INL void accelerate(const plant_parts *p, const plant_ground *const *grounds, double dt) {
     const robot_numbers *robot = p->robot;
     const trunk_motion t = trunk_moves(p);

@@ -4,12 +4,12 @@
 
 #include "dynamics.h"
 
-#define FALL_TIPPED  0.5   /* cosine of 60 degrees, from the normal of the ground */
-#define FALL_UPENDED 0.174 /* cosine of 80 degrees: yaw and roll become one at 90 */
+#define FALL_TIPPED  0.5   /* cosine of 60 degrees from the normal of the ground */
+#define FALL_UPENDED 0.174 /* cosine of 80 degrees; at 90 yaw and roll have one axis */
 
-/* Whether the trunk of a robot is tipped by more than 60 degrees, or a corner of its box is in the
- * ground. On a steep slope it can point straight up or down before it is tipped that far; there it
- * counts as fallen 10 degrees earlier. */
+/* Whether a robot has fallen: its trunk is tipped by more than 60 degrees from the normal of the
+ * ground, or a corner of its box is in the ground. On a steep slope a trunk may point straight up
+ * or down before it is tipped that far. It then counts as fallen 10 degrees before it does so. */
 INL int fallen(const plant_parts *p, const plant_ground *ground, const trunk_motion *t, int robot) {
     const robot_numbers *n = p->robot;
     const double top = B_AT(n->top, robot), height = B_AT(t->height, robot);

@@ -1,11 +1,11 @@
-/* Apparent mass of the feet along the ground, of one robot at rest. */
+/* Apparent mass of the feet of one robot at rest, along the ground. */
 #ifndef PLANT_FOOT_MASS_H
 #define PLANT_FOOT_MASS_H
 
 #include "dynamics.h"
 
-/* Accelerations of coordinates in the trunk's axes (z) and of the joints of leg `pushed`, when its
- * foot is pushed by a force in the axes of the trunk, and nothing else acts. */
+/* Accelerations of the trunk, in its axes (z), and of the joints of leg `pushed`, when a force in
+ * the axes of the trunk pushes its foot and nothing else acts. */
 static inline void pushed_foot(const plant_parts *p, const trunk_motion *t, int32_t pushed,
                                b3 force, B z[6], V qdd[3]) {
     const V none[3] = {0.0, 0.0, 0.0};
@@ -46,7 +46,7 @@ static inline double least_foot_mass(const plant_parts *p) {
             B z[6];
             V qdd[3];
             pushed_foot(p, &t, leg, along[i], z, qdd);
-            /* at rest, accelerations follow one another as speeds do */
+            /* at rest, accelerations obey the same relations as speeds */
             const leg_motion m = leg_moves(&p->leg[leg], p->state[leg].q, qdd,
                                            (v3){z[0], z[1], z[2]}, (v3){z[3], z[4], z[5]});
             const v3 knee = v_add(m.third.v, v_cross(m.third.w, m.tibia));

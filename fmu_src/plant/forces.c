@@ -1,11 +1,12 @@
-/* What acts on a robot besides gravity, for engines that integrate a tree of bodies themselves but
- * know neither these servos nor this contact: the laws of the plant on coordinates of theirs. */
+/* All forces on a robot but gravity, for engines that integrate a tree of bodies themselves but do
+ * not have these servos and this contact. The laws are those of the plant, on the engine's
+ * coordinates. */
 #define PLANT_WIDTH 1
 #include "fall.h"
 #include "numbers.h"
 #include "plant.h"
 
-/* A trunk at six coordinates of a tree, moving at six speeds. */
+/* State of a trunk from six coordinates and six speeds of a tree. */
 static trunk_state trunk_at(const double *q, const double *v) {
     trunk_state s;
     memset(&s, 0, sizeof s);
@@ -21,7 +22,7 @@ static trunk_state trunk_at(const double *q, const double *v) {
     return s;
 }
 
-/* A plant of one robot with room for the places where a foot touches. */
+/* Parts of a plant of one robot, with room for the contact points of a foot. */
 static plant_parts parts_with(robot_numbers *robot, trunk_state *trunk, const plant_ground *ground,
                               double *found) {
     plant_parts p;
@@ -43,8 +44,8 @@ static void suspend(const plant_suspension *by, const double *held, const double
     }
 }
 
-/* Add what the ground does to a foot to the generalized forces of trunk and joints: the wrench on
- * the tibia, moved to the axis of every joint in turn. */
+/* Add the action of the ground on a foot to the generalized forces of trunk and joints. The wrench
+ * on the tibia is moved to the axis of every joint in turn. */
 static void add_generalized(const leg_numbers *n, const leg_motion *m, const trunk_motion *t,
                             const push *ground, double *base, double *joint) {
     const wrench at_knee = {ground->moment, ground->force};

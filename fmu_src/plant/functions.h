@@ -1,4 +1,4 @@
-/* Elementary functions of single numbers: the same bits on every platform. */
+/* Elementary functions of single numbers, with the same bits on every platform. */
 #ifndef PLANT_FUNCTIONS_H
 #define PLANT_FUNCTIONS_H
 
@@ -10,7 +10,7 @@
 static inline double plant_log(double x) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
-    /* as many halvings as leave m between sqrt(1/2) and sqrt(2) */
+    /* halved until m lies between sqrt(1/2) and sqrt(2) */
     const int64_t k = (int64_t)((bits + UINT64_C(0x00095F619980C433)) >> 52) - 1023;
     bits -= (uint64_t)k << 52;
     double m;

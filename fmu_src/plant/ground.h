@@ -1,6 +1,6 @@
-/* Where a ball touches a ground: the plane, obstacles, a kerb, waves, or a ground of one's own.
+/* Where a ball touches a ground: a plane, obstacles, a kerb, waves, or a ground of one's own.
  *
- * All functions are as `plant_touch` in plant.h says, in the frame of the ground. */
+ * All functions follow `plant_touch` in plant.h, in the frame of the ground. */
 #ifndef PLANT_GROUND_H
 #define PLANT_GROUND_H
 
@@ -9,7 +9,7 @@
 #include "lanes.h"
 #include "plant.h"
 
-/* Beyond this place [m] a motion has broken down, and cells cannot be counted. */
+/* Beyond this distance [m] a motion has diverged, and a cell number would overflow. */
 #define GROUND_END 1e6
 
 static inline void ground_found(double *at, double nx, double ny, double nz, double depth) {
@@ -26,15 +26,15 @@ static inline int32_t ground_plane(double z, double radius, double *found) {
     return 1;
 }
 
-/* Row or column of a place in a tile that is repeated without end. The remainder of a tiny negative
- * number rounds up to the divisor: hence twice. */
+/* Row or column of the cell at a position, in a tile that is repeated without end. The remainder of
+ * a tiny negative number rounds up to the divisor, so the remainder is taken twice. */
 static inline int64_t ground_cell(double x, double tile, int64_t cells) {
     const double n = (double)cells, place = x / tile * n;
     const int64_t cell = (int64_t)(place - n * floor(place / n));
     return cell >= cells ? cell - cells : cell;
 }
 
-/* The plane, and every obstacle of the cell that is near enough. */
+/* The plane, and every obstacle listed in the cell that is near enough. */
 static inline int32_t ground_obstacles(double x, double y, double z, double radius,
                                        const double *reals, const int64_t *integers,
                                        double *found) {
@@ -60,8 +60,8 @@ static inline int32_t ground_obstacles(double x, double y, double z, double radi
     return count;
 }
 
-/* The plane where it is free, and the nearest point of the kerb: top, face or edge. A centre inside
- * the kerb is pushed out through the nearest of the three. */
+/* The plane where there is no kerb, and the nearest point of the kerb: top, face or edge. A centre
+ * inside the kerb is pushed out through its nearest surface. */
 static inline int32_t ground_kerb(double x, double z, double radius, const double *reals,
                                   double *found) {
     const double begin = reals[0], end = reals[1], height = reals[2];

@@ -1,6 +1,6 @@
-/* A way to compute a plant: what includes this names it (PLANT_KERNEL), says how wide it is (see
- * lanes.h) and for which instructions (PLANT_TARGET, empty: those that the compiler takes anyway).
- */
+/* A way to compute a plant. The file that includes this one defines its name (PLANT_KERNEL), its
+ * width (see lanes.h) and its instruction set (PLANT_TARGET; if it is not defined, the compiler's
+ * own). */
 #include <float.h>
 #include <math.h>
 #include <stddef.h>

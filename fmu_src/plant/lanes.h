@@ -1,9 +1,9 @@
-/* Numbers side by side. V: one number per leg or per robot; B: one per robot.
+/* Numbers side by side. V: one number per leg or per robot; B: one number per robot.
  *
- * What includes this says how: PLANT_WIDTH lanes (1: plain C11, no vectors), and PLANT_LEGS_ABREAST
- * if the lanes are the legs of one robot. Every function does the same operations in the same order
- * whatever the width, so a lane has the very bits of the plain program (with contraction of a
- * product and a sum into one operation off: -ffp-contract=off).
+ * The file that includes this one defines PLANT_WIDTH, the number of lanes (1: plain C11 without
+ * vectors), and PLANT_LEGS_ABREAST if the lanes are the legs of one robot. Every function does the
+ * same operations in the same order at every width, so a lane has the bits of the plain program.
+ * The compiler must not fuse a product and a sum into one operation (-ffp-contract=off).
  */
 #ifndef PLANT_LANES_H
 #define PLANT_LANES_H
@@ -20,7 +20,7 @@
 #pragma STDC FP_CONTRACT OFF
 #endif
 #if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wpsabi" /* whatever takes vectors is inlined */
+#pragma GCC diagnostic ignored "-Wpsabi" /* every function that takes vectors is inlined */
 #endif
 
 #if defined(__GNUC__)
@@ -29,9 +29,9 @@
 #define INL static inline
 #endif
 
-#define LANES_TO_WHOLE 6755399441055744.0 /* 1.5 * 2^52: adding it leaves the nearest integer */
+#define LANES_TO_WHOLE 6755399441055744.0 /* 1.5 * 2^52: adding it rounds to a whole number */
 
-/* Sine and cosine on [-pi / 4, pi / 4], T being the type of the numbers. */
+/* Sine and cosine on [-pi / 4, pi / 4]; T is the type of the numbers. */
 #define LANES_SINE_COSINE(T, u, s, c)                                                              \
     const T z = (u) * (u), zz = z * z;                                                             \
     const T P = (-0.16666666666666666 + 0.008333333333333134 * z) +                                \
@@ -44,7 +44,7 @@
     const T s = (u) + (u) * z * P;                                                                 \
     const T c = (1.0 - 0.5 * z) + zz * Q;
 
-/* An angle less the nearest multiple of pi / 2 [rad], in three parts. */
+/* An angle minus the nearest multiple of pi / 2 [rad], which is subtracted in three parts. */
 #define LANES_REST(x, n)                                                                           \
     ((((x) - (n) * 1.5707963267341256) - (n) * 6.077100506303966e-11) -                            \
      (n) * 2.0222662487959506e-21)
@@ -60,7 +60,7 @@ INL void s_sin_cos(double x, double *sine, double *cosine) {
     const double shifted = x * 0.6366197723675814 + LANES_TO_WHOLE, n = shifted - LANES_TO_WHOLE;
     const double u = LANES_REST(x, n);
     LANES_SINE_COSINE(double, u, s, c)
-    uint64_t quarter; /* its last two bits, those of n */
+    uint64_t quarter; /* its last two bits are those of n */
     memcpy(&quarter, &shifted, sizeof quarter);
     const double a = quarter & 1 ? c : s, b = quarter & 1 ? s : c;
     *sine = quarter & 2 ? -a : a;
@@ -85,7 +85,7 @@ typedef double V __attribute__((vector_size(PLANT_WIDTH * sizeof(double))));
 typedef int64_t V_mask __attribute__((vector_size(PLANT_WIDTH * sizeof(double))));
 #define V_AT(v, i) ((v)[i])
 
-INL V v_all(double x) { return x - (V){0}; } /* a sum would lose the sign of -0 */
+INL V v_all(double x) { return x - (V){0}; } /* a sum with 0 would lose the sign of -0 */
 INL V v_select(V_mask m, V a, V b) { return (V)((m & (V_mask)a) | (~m & (V_mask)b)); }
 INL V v_min(V a, V b) { return v_select(a < b, a, b); }
 INL V v_max(V a, V b) { return v_select(a > b, a, b); }
@@ -118,7 +118,7 @@ INL void v_sin_cos(V x, V *sine, V *cosine) {
 
 #endif
 
-/* Numbers of a robot: single ones if the lanes are its legs, else as wide as all others. */
+/* Numbers of a robot: single if the lanes are its legs, else as wide as all others. */
 #ifdef PLANT_LEGS_ABREAST
 typedef double B;
 #define PLANT_ROBOTS_ABREAST 1

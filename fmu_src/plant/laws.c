@@ -1,4 +1,4 @@
-/* The laws by themselves: for other engines, and to look at. */
+/* The laws one by one, for other engines and for tests. */
 #define PLANT_WIDTH 1
 #include "contact.h"
 #include "ground.h"

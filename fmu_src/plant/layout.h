@@ -1,7 +1,8 @@
-/* How the bytes of a plant lie, whatever its lanes are: a header, then arrays of numbers.
+/* Layout of the bytes of a plant, the same for all kinds of lanes: a header, then arrays of
+ * numbers.
  *
- * The structs of robot.h hold numbers only, so a struct of wide numbers is `width` times as large
- * as one of single numbers, and number i of lane k stands at i * width + k. */
+ * The structs of robot.h hold numbers only. A struct of wide numbers is therefore `width` times as
+ * large as one of single numbers, and number i of lane k is at index i * width + k. */
 #ifndef PLANT_LAYOUT_H
 #define PLANT_LAYOUT_H
 
@@ -15,9 +16,9 @@ typedef struct {
     int32_t legs, contacts, history; /* see plant_size */
     int32_t width;                   /* numbers side by side in V */
     int32_t robots;                  /* numbers side by side in B */
-    int32_t groups;                  /* of legs */
-    int32_t coming_first;            /* entry of the oldest command under way */
-    int32_t coming_count;            /* commands under way */
+    int32_t groups;                  /* of legs, see robot.h */
+    int32_t coming_first;            /* entry of the oldest command that waits */
+    int32_t coming_count;            /* number of commands that wait */
     int32_t loads_last;              /* entry of the newest reading */
     int32_t loads_count;             /* readings kept */
     double latency;                  /* [s] of commands */
@@ -25,11 +26,11 @@ typedef struct {
     size_t robot, leg, trunk, state, kept, coming, loads, found, waits, spans, scratch;
     size_t end;                          /* [bytes] from the start */
     int32_t fares[PLANT_MOST_LANES];     /* PLANT_WALKS ... */
-    uint64_t seed[PLANT_MOST_LANES];     /* of the sensors' noise */
-    uint64_t readings[PLANT_MOST_LANES]; /* taken since the start */
+    uint64_t seed[PLANT_MOST_LANES];     /* seed of the sensors' noise */
+    uint64_t readings[PLANT_MOST_LANES]; /* readings since the start */
 } plant_header;
 
-/* Numbers in a struct of single numbers. */
+/* Count of numbers in a struct of single numbers. */
 #define NUMBERS_OF(type) (sizeof(type) / sizeof(double) / (size_t)(PLANT_WIDTH))
 
 /* The parts of the plant at `memory`. */
@@ -52,7 +53,7 @@ INL plant_parts parts_of(void *memory) {
     return p;
 }
 
-/* What every way to compute a plant offers; NULL where this build has none. */
+/* The functions that every way to compute a plant has; NULL if this build lacks it. */
 typedef struct {
     int32_t width, robots;
     void (*advance)(void *plant, const plant_ground *const *grounds, double duration, double step);

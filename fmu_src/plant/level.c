@@ -1,12 +1,12 @@
-/* Which instructions this machine has. The processor is asked itself: some compilers' own question
- * for it always says no. */
+/* Which instruction sets this machine has. The processor is asked directly, because the built-in
+ * query of some compilers always answers no. */
 #include "plant.h"
 #include "targets.h"
 
 #ifdef PLANT_HAS_X86
 #include <cpuid.h>
 
-/* What the operating system saves when it switches threads. */
+/* Registers that the operating system saves when it switches threads. */
 static uint64_t saved_by_system(void) {
     uint32_t low, high;
     __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));

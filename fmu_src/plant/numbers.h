@@ -1,4 +1,4 @@
-/* The numbers of a caller turned into those that the equations of motion need, for one robot. */
+/* Converts the numbers of a caller to those that the equations of motion need, for one robot. */
 #ifndef PLANT_NUMBERS_H
 #define PLANT_NUMBERS_H
 
@@ -83,7 +83,7 @@ static inline void set_robot(robot_numbers *n, const plant_robot *robot,
     n->box_half = (b3){size[0] / 2.0, size[1] / 2.0, size[2] / 2.0};
 }
 
-/* At rest at coordinates as plant_place takes them; the servos are told to stay there. */
+/* Set the state at rest at coordinates as of plant_place; the commands are the same coordinates. */
 static inline void set_start(const plant_parts *p, const double *coordinates, double height) {
     trunk_state *t = p->trunk;
     for (int i = 0; i < 6; i++) t->start[i] = coordinates[i];

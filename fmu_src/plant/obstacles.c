@@ -1,13 +1,13 @@
-/* A field of obstacles: caps of balls on a plane, and which of them a foot can touch from where.
+/* A field of obstacles: caps of balls on a plane, and a grid to find the balls near a foot.
  *
- * A square tile is repeated without end and divided into cells; a cell lists the balls that a foot
- * over it can touch, so a contact looks at a handful of them. */
+ * A square tile is repeated without end and divided into cells. A cell lists the balls that a foot
+ * over it can touch, so that a contact examines only a few balls. */
 #include <math.h>
 #include <string.h>
 
 #include "plant.h"
 
-/* One ball: place of its centre and radius [m]. */
+/* One ball: position of its centre and radius [m]. */
 static void ball_of(const plant_field *field, int64_t index, double *ball) {
     double place[3];
     plant_obstacle(field->seed, index, field->tile, field->smallest, field->largest, place);
@@ -17,7 +17,7 @@ static void ball_of(const plant_field *field, int64_t index, double *ball) {
     ball[3] = place[2];
 }
 
-/* Cells in a row that a foot near a ball can be over, along one axis. */
+/* Range of cells, along one axis, over which a foot can touch a ball. */
 typedef struct {
     int64_t first, last;
 } cell_range;
@@ -28,8 +28,8 @@ static cell_range cells_about(const plant_field *field, double place, double rea
                         (int64_t)floor((place + reach) / size)};
 }
 
-/* How far from the axis of a ball a foot touches it: its centre no lower than where it has sunk
- * into the plane [m]. */
+/* Largest distance from the axis of a ball at which a foot touches it [m]. The foot is sunk into
+ * the plane by `sink_in`. */
 static double reach_of(const plant_field *field, const double *ball) {
     const double near = ball[3] + field->foot_radius;
     const double low = field->foot_radius - field->sink_in - ball[2];
@@ -53,7 +53,8 @@ int64_t plant_field_integers(const plant_field *field) {
     return field->cells * field->cells + 1 + members;
 }
 
-/* Visit every cell of every ball: count them, or list the balls where `next` of a cell points. */
+/* Visit every cell of every ball. Without `members` the balls per cell are counted in `next`; else
+ * each ball is written to `members` at index `next` of its cell. */
 static void visit(const plant_field *field, const double *balls, int64_t *next, int64_t *members) {
     for (int64_t i = 0; i < field->balls; i++) {
         const double reach = reach_of(field, balls + 4 * i);
@@ -84,7 +85,7 @@ int32_t plant_field_fill(const plant_field *field, double *reals, int64_t *integ
         begin += count;
     }
     visit(field, reals + 2, integers, members);
-    /* every cell now points to the end of its list, which is where that of the next one begins */
+    /* every cell now points to the end of its list, where that of the next cell begins */
     for (int64_t cell = cells; cell > 0; cell--) integers[cell] = integers[cell - 1];
     integers[0] = 0;
     return 1 + (int32_t)most;

@@ -1,5 +1,5 @@
-/* Plants of any kind: their bytes, robots put in and read out, and the plain way to compute them.
- */
+/* Plants of all kinds: their memory, functions to put in and read out robots, and the plain way to
+ * compute them. */
 #define PLANT_KERNEL plant_kernel_scalar
 #define PLANT_WIDTH  1
 #include "kernel.h"
@@ -42,7 +42,8 @@ static size_t aligned(size_t size) {
     return (size + PLANT_ALIGNMENT - 1) / PLANT_ALIGNMENT * PLANT_ALIGNMENT;
 }
 
-/* Where the parts lie; the scratch of a kind with several lanes is a plant of one. */
+/* Offsets of the parts. The scratch memory of a kind with several lanes holds a plant of one robot.
+ */
 static plant_header layout(int32_t kind, int32_t level, int32_t legs, int32_t contacts,
                            int32_t history) {
     plant_header h;
@@ -98,7 +99,7 @@ void plant_create(void *memory, int32_t kind, int32_t level, int32_t legs, int32
     memset(memory, 0, h.end);
     memcpy(memory, &h, sizeof h);
     for (int32_t robot = 0; robot < h.robots; robot++)
-        ((plant_header *)memory)->fares[robot] = PLANT_DIVERGED; /* nobody is there */
+        ((plant_header *)memory)->fares[robot] = PLANT_DIVERGED; /* the lane is empty */
     if (h.width > 1)
         plant_create((char *)memory + h.scratch, PLANT_SCALAR, PLANT_BASELINE, legs, contacts, 1);
 }
@@ -120,7 +121,7 @@ int32_t plant_intact(const void *memory, int32_t kind, int32_t level, int32_t le
     if (h.loads_count < 1 || h.loads_count > history) return 0;
     for (int32_t robot = 0; robot < own.robots; robot++)
         if (h.fares[robot] < PLANT_WALKS || h.fares[robot] > PLANT_DIVERGED) return 0;
-    /* everything else says where the parts lie */
+    /* all other fields must be those of this layout */
     h.coming_first = h.coming_count = h.loads_last = h.loads_count = 0;
     h.latency = h.delay = 0.0;
     memset(h.fares, 0, sizeof h.fares);
@@ -129,17 +130,17 @@ int32_t plant_intact(const void *memory, int32_t kind, int32_t level, int32_t le
     return own.end && memcmp(&h, &own, sizeof h) == 0;
 }
 
-/* Number i of the struct of B at `part`, of a lane. */
+/* Number i of the struct of B at `part`, for a lane. */
 static double *of_robot(void *plant, size_t part, size_t i, int32_t lane) {
     const plant_header *h = (const plant_header *)plant;
     return (double *)((char *)plant + part) + i * (size_t)h->robots + (size_t)lane;
 }
 
-/* The struct of `count` numbers of V at `part`, of a leg of a lane: its first number; the others
- * stand `width` apart. */
+/* First number of the struct of `count` numbers of V at `part`, for a leg of a lane. The other
+ * numbers follow at a distance of `width`. */
 static double *leg_at(void *plant, size_t part, size_t count, int32_t leg, int32_t lane) {
     const plant_header *h = (const plant_header *)plant;
-    const int abreast = h->robots != h->width; /* its legs stand side by side */
+    const int abreast = h->robots != h->width; /* the lanes are its legs */
     const int32_t group = abreast ? leg / h->width : leg, at = abreast ? leg % h->width : lane;
     return (double *)((char *)plant + part) + (size_t)group * count * (size_t)h->width + (size_t)at;
 }
@@ -158,7 +159,7 @@ static double *of_leg(void *plant, size_t part, size_t count, size_t i, int32_t 
     of_leg(plant, ((plant_header *)(plant))->state, NUMBERS_OF(leg_state),                         \
            PLACE_OF(leg_state, field), leg, lane)
 
-/* Copy the robot of a plant of one into a lane of another. */
+/* Copy the robot of a plant with one lane into a lane of another plant. */
 static void put(void *plant, int32_t lane, void *single) {
     const plant_header *h = (const plant_header *)plant, *s = (const plant_header *)single;
     const struct {
@@ -170,7 +171,7 @@ static void put(void *plant, int32_t lane, void *single) {
     for (int k = 0; k < 2; k++)
         for (size_t i = 0; i < once[k].count; i++)
             *of_robot(plant, once[k].to, i, lane) = *of_robot(single, once[k].from, i, 0);
-    /* lanes without a leg compute what the first leg does, and are not added up */
+    /* lanes without a leg repeat the first leg and are not summed */
     const int32_t places = h->robots == h->width ? h->legs : h->groups * h->width;
     for (int k = 0; k < 2; k++)
         for (int32_t leg = 0; leg < places; leg++)
@@ -183,7 +184,7 @@ static int32_t places_of(const plant_header *h) {
     return h->robots == h->width ? h->legs : h->groups * h->width;
 }
 
-/* Commands and readings under way as before the start: the start pose once a tick, and no load. */
+/* Fill the waiting commands with the start pose, one per tick, and the waiting readings with 0. */
 static void start_under_way(void *plant, int32_t lane, double latency, double delay, double Ts) {
     plant_header *h = (plant_header *)plant;
     double *waits = (double *)((char *)plant + h->waits);
@@ -277,7 +278,7 @@ void plant_set_conditions(void *plant, int32_t lane, const plant_conditions *con
     *ROBOT(plant, added, lane) = added;
     *ROBOT(plant, deviation, lane) = s_sqrt(own * own + added * added);
     *TRUNK(plant, held, lane) = conditions->held ? 1.0 : 0.0;
-    /* held where it is now, but level and at a height above its start */
+    /* the trunk is held where it is now, but level and at a height above its start */
     for (size_t i = 0; i < 6; i++) *TRUNK(plant, pose[i], lane) = *TRUNK(plant, start[i], lane);
     *TRUNK(plant, pose[0], lane) = *TRUNK(plant, x.x, lane);
     *TRUNK(plant, pose[1], lane) = *TRUNK(plant, x.y, lane);
@@ -327,7 +328,7 @@ void plant_sample(const void *plant, int32_t lane, double *sample) {
                              *TRUNK(p, xd.x, lane), *TRUNK(p, xd.y, lane),  *TRUNK(p, xd.z, lane)};
     memcpy(sample, trunk, sizeof trunk);
     sample += 9;
-    /* hip and knee turn the other way in the tree: angles, speeds and torques change sign */
+    /* hip and knee turn the other way in the tree, so angles, speeds and torques change sign */
     static const struct {
         size_t place;
         double sign;

@@ -1,4 +1,4 @@
-/* Numbers by chance that depend on seed, purpose and index alone: the same bits everywhere.
+/* Random numbers that depend only on seed, purpose and index; the bits are the same everywhere.
  *
  * Philox 4x32-10, a counter-based generator: J. K. Salmon et al., Parallel random numbers: as easy
  * as 1, 2, 3, SC 2011. Key: the seed. Counter: index, purpose. */
@@ -25,7 +25,7 @@ static inline void random_philox(uint32_t counter[4], uint32_t k0, uint32_t k1) 
     }
 }
 
-/* Two numbers in [0, 1), of 53 bits. */
+/* Two numbers in [0, 1), with 53 random bits each. */
 static inline void random_pair(uint64_t seed, uint32_t purpose, uint64_t index, double pair[2]) {
     uint32_t counter[4] = {(uint32_t)index, (uint32_t)(index >> 32), purpose, 0};
     random_philox(counter, (uint32_t)seed, (uint32_t)(seed >> 32));

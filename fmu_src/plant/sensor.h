@@ -1,16 +1,17 @@
-/* Load cells in the feet: late, smoothed and noisy, for any number of lanes.
+/* Load cells in the feet, with delay, low-pass and noise, for any number of lanes.
  *
- * Per tick a load is read, arrives `delay` later (between two readings by a straight line, zero
- * before the first), passes a first-order low-pass y += (1 - exp(-dt/T)) (x - y), which is the same
- * filter at every length of a tick, and gets white noise of a normal distribution. A load cell
- * under a foot cannot pull, so what it delivers is never below zero. */
+ * The load is read once per tick and arrives `delay` later. Between two readings it is interpolated
+ * linearly; before the first it is zero. It then passes a first-order low-pass,
+ * y += (1 - exp(-dt/T)) (x - y), which is the same filter at every tick length. Normally
+ * distributed white noise is added. A load cell under a foot cannot pull, so the result is cut off
+ * at zero. */
 #ifndef PLANT_SENSOR_H
 #define PLANT_SENSOR_H
 
 #include "layout.h"
 #include "random.h"
 
-/* Keep the newest loads of all legs; entries go round. */
+/* Store the newest loads of all legs in a ring buffer. */
 INL void keep_loads(plant_header *h, const plant_parts *p, double *spans, const V *load,
                     double duration) {
     h->loads_last = (h->loads_last + 1) % h->history;
@@ -19,8 +20,8 @@ INL void keep_loads(plant_header *h, const plant_parts *p, double *spans, const 
     for (int32_t g = 0; g < p->groups; g++) p->loads[h->loads_last * p->groups + g] = load[g];
 }
 
-/* The entry that is older than the delay's age or just as old, the next newer one, and how far the
- * delay reaches from the former to the latter [1]. */
+/* The newest entry that is at least as old as the delay, the next newer one, and the weight of the
+ * latter in the interpolation between them [1]. */
 INL double age_of_delay(const plant_header *h, const double *spans, int32_t *older,
                         int32_t *newer) {
     double left = h->delay;
@@ -35,7 +36,7 @@ INL double age_of_delay(const plant_header *h, const double *spans, int32_t *old
     return count > 1 ? (spans[at] - left) / spans[at] : 1.0;
 }
 
-/* New part in a reading of the low-pass for ticks of this length. */
+/* Share of the new value in the low-pass for ticks of this length [1]. */
 INL void find_share(robot_numbers *n, double duration) {
     for (int robot = 0; robot < PLANT_ROBOTS_ABREAST; robot++) {
         if (B_AT(n->share_of, robot) == duration) continue;
@@ -69,7 +70,7 @@ INL V noise_of(const plant_header *h, const plant_parts *p, int32_t group, V *se
     return first;
 }
 
-/* Let the sensors read the loads at the end of a tick. */
+/* Read the loads at the end of a tick. */
 INL void read_sensors(plant_header *h, const plant_parts *p, double *spans, const V *load,
                       double duration) {
     const V zero = v_all(0.0);

@@ -1,4 +1,4 @@
-/* Load cells without a robot, for other engines: those of a plant of one whose loads are given. */
+/* Load cells without a robot, for other engines: a plant of one robot whose loads are given. */
 #define PLANT_WIDTH 1
 #include "numbers.h"
 #include "plant.h"

@@ -11,9 +11,9 @@ typedef struct {
     B per_no_load; /* [s/rad] one over the no-load speed */
 } servo_numbers;
 
-/* tau = P error - D speed, held within what the motor can give at that speed:
+/* tau = P error - D speed, within the limits of the motor at that speed:
  * stall (-1 - speed/no_load) <= tau <= stall (1 - speed/no_load) from the supply voltage, and
- * |tau| <= stall from the current limit. error: commanded minus actual angle [rad]; speed of the
+ * |tau| <= stall from the current limit. error: commanded minus actual angle [rad]; speed: of the
  * joint [rad/s]. */
 INL V servo_torque(const servo_numbers *s, V error, V speed) {
     const V one = v_all(1.0), stall = wide(s->stall), ratio = speed * wide(s->per_no_load);

@@ -1,10 +1,10 @@
-/* Where a robot starts, and what its trunk weighs: from a robot file to plant_place. */
+/* Start coordinates and mass of the trunk, which plant_place needs. */
 #include <math.h>
 
 #include "lanes.h"
 #include "plant.h"
 
-#define START_DEEPEST 1e6 /* [m] below which no ground is looked for */
+#define START_DEEPEST 1e6 /* [m] depth to which the ground is searched */
 
 /* Add the inertia of a body about a point. */
 static void add_about(double *inertia, const plant_body *body, const double *point) {
@@ -41,7 +41,7 @@ double plant_side_offset(uint64_t seed, double size) {
     return side * size * (0.75 + 0.5 * plant_uniform(seed, PLANT_RANDOM_BODY, 1));
 }
 
-/* Highest place of a ball's centre at which it just touches one of the obstacles, or the plane. */
+/* Greatest height of a ball's centre at which it just touches an obstacle or the plane. */
 static double rest_on_obstacles(const plant_ground *ground, double x, double y, double radius) {
     const double tile = ground->reals[0], *balls = ground->reals + 2;
     const int64_t cells = (int64_t)ground->reals[1] * (int64_t)ground->reals[1];

@@ -1,4 +1,4 @@
-/* What this build can compute with: vectors of GNU C, and instructions beyond the baseline. */
+/* What the compiler offers: vectors of GNU C, and instructions beyond the baseline. */
 #ifndef PLANT_TARGETS_H
 #define PLANT_TARGETS_H
 

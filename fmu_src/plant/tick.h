@@ -5,8 +5,8 @@
 #include "fall.h"
 #include "sensor.h"
 
-#define TICK_WILD 1e8  /* [m^2/s^2, rad^2/s^2] sum of squared speeds of a motion that broke down */
-#define TICK_NOW  1e-6 /* part of a tick within which two moments are one */
+#define TICK_WILD 1e8  /* [m^2/s^2, rad^2/s^2] sum of squared speeds that means divergence */
+#define TICK_NOW  1e-6 /* part of a tick within which two moments count as one */
 
 /* Velocity Verlet: half a kick, a drift, accelerations, half a kick. */
 INL void kick(const plant_parts *p, double h) {
@@ -43,13 +43,13 @@ INL void integrate(const plant_parts *p, const plant_ground *const *grounds, dou
     *last = h;
 }
 
-/* Let the servos follow a command from now on. */
+/* Make a command the target of the servos. */
 INL void follow(const plant_parts *p, const V *targets) {
     for (int32_t g = 0; g < p->groups; g++)
         for (int j = 0; j < 3; j++) p->state[g].target[j] = targets[3 * g + j];
 }
 
-/* Integrate a tick, in which commands that are under way reach the servos. */
+/* Integrate a tick; the commands whose latency has passed reach the servos. */
 INL void integrate_tick(plant_header *h, const plant_parts *p, const plant_ground *const *grounds,
                         double *waits, double duration, double step, double *last) {
     double done = 0.0;
@@ -68,10 +68,10 @@ INL void integrate_tick(plant_header *h, const plant_parts *p, const plant_groun
         waits[(h->coming_first + i) % h->history] -= duration;
 }
 
-/* Send the command of this tick: of damaged legs 0, changed no faster than the slew rate. */
+/* Send the command of this tick: 0 for damaged legs, changed no faster than the slew rate. */
 INL void send_command(plant_header *h, const plant_parts *p, double *waits, double duration) {
     const V zero = v_all(0.0), slew = wide(p->robot->slew_rate), reach = slew * duration;
-    if (h->coming_count == h->history) { /* ticks are shorter than the plant was made for */
+    if (h->coming_count == h->history) { /* the ticks are shorter than the plant was made for */
         follow(p, p->coming + (size_t)h->coming_first * 3 * (size_t)p->groups);
         h->coming_first = (h->coming_first + 1) % h->history;
         h->coming_count--;
@@ -91,7 +91,7 @@ INL void send_command(plant_header *h, const plant_parts *p, double *waits, doub
     h->coming_count++;
 }
 
-/* Torques, feet and forces at the present coordinates and speeds. */
+/* Store torques, feet and forces at the present coordinates and speeds. */
 INL void measure(const plant_parts *p, const plant_ground *const *grounds, const trunk_motion *t,
                  double dt, V *load) {
     const v3 w = wide3(t->w), v = wide3(t->v), x = wide3(p->trunk->x);
@@ -111,7 +111,7 @@ INL void measure(const plant_parts *p, const plant_ground *const *grounds, const
     }
 }
 
-/* Whether a motion has broken down: speeds that are wild or no numbers. */
+/* Whether a motion has diverged: its speeds are too high or not a number. */
 INL B speeds_squared(const plant_parts *p) {
     const trunk_state *s = p->trunk;
     const B zero = b_all(0.0);

@@ -4,7 +4,7 @@
 
 #include "lanes.h"
 
-/* v_...: of V, one per leg; b_...: of B, one per robot. */
+/* v_... works on V, one per leg; b_... on B, one per robot. */
 #define VECTORS(T, v3, v)                                                                          \
     typedef struct {                                                                               \
         T x, y, z;                                                                                 \
@@ -41,7 +41,7 @@ INL v3 v_turn_back(const rotation *r, v3 a) {
                  v_scale(a.z, wide3(r->z)));
 }
 
-/* Vectors turned about x and y by an angle with cosine c and sine s. */
+/* Rotations of a vector about x and y by an angle with cosine c and sine s. */
 INL v3 about_x(V c, V s, v3 a) { return (v3){a.x, c * a.y - s * a.z, s * a.y + c * a.z}; }
 INL v3 about_y(V c, V s, v3 a) { return (v3){c * a.x + s * a.z, a.y, c * a.z - s * a.x}; }
 
