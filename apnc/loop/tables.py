@@ -76,7 +76,7 @@ def _run(record: Record) -> dict[str, str]:
     ended = f"{record.end}, {record.message}" if record.message else str(record.end)
     return {
         "robot": record.robot.name,
-        "controller": record.experiment.method,
+        "controller": record.experiment.controller_name,
         "MI": steps_text(record.experiment.mi),
         "seed": str(record.experiment.seed),
         "end": ended,

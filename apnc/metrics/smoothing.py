@@ -6,7 +6,6 @@ from functools import cache
 from typing import Final
 
 import numpy as np
-from scipy.signal import savgol_filter
 
 from apnc_core.types import Array
 
@@ -35,10 +34,13 @@ def smooth(values: Array) -> Array:
 
 @cache
 def _weights(length: int) -> Array:
-    """What the samples of a window weigh in its parabola, a row per sample of the parabola.
+    """Weights of the samples of a window in each point of its parabola, shape (length, length).
 
-    The filter takes the middle of each parabola, and all of the first half of the first and of the
-    last half of the last. Asked once, it spares a fit of both ends in every call.
+    Inside the run, the filter takes the middle point of each parabola. At the ends it takes the
+    first half of the first parabola and the last half of the last. The weights are computed once
+    for each length, since a fit in every call takes longer than the filter.
     """
+    from scipy.signal import savgol_filter  # noqa: PLC0415  # takes long to import
+
     weights: Array = savgol_filter(np.eye(length), length, ORDER, axis=0)
     return weights

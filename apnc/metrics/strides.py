@@ -11,7 +11,6 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import grey_opening
 
 from apnc.metrics.motion import MIN_SPEED
 from apnc.metrics.phases import cpg_phase
@@ -168,8 +167,18 @@ def _passages(phase: Array) -> Array:
 
 
 def _without_short(signals: Bool) -> Bool:
-    """The signals (T, n) without runs of True below three samples, but for those cut by an end."""
-    spare = MIN_RUN - 1  # makes what an end may have cut as long as it may have been
+    """Set runs of True below three samples to False in the signals (T, n).
+
+    A run at the first or the last sample may have been longer and stays.
+    """
+    spare = MIN_RUN - 1
     longer = np.pad(signals, ((spare, spare), (0, 0)), mode="edge")
-    opened: Bool = grey_opening(longer, (MIN_RUN, 1))
-    return opened[spare:-spare]
+    begins = np.logical_and.reduce(_shifted(longer))  # of MIN_RUN samples that are all True
+    inside: Bool = np.logical_or.reduce(_shifted(begins))
+    return inside
+
+
+def _shifted(signals: Bool) -> list[Bool]:
+    """Every sample but the last ones, and the samples behind it, MIN_RUN in all."""
+    length = len(signals) - MIN_RUN + 1
+    return [signals[k : k + length] for k in range(MIN_RUN)]

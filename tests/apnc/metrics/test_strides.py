@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from records import RATE, outputs
+from scipy.ndimage import binary_opening
 
 from apnc import metrics
 
@@ -204,6 +205,19 @@ def test_flicker_is_removed(samples: int, flicker: bool) -> None:
     assert metrics.stance(legs(10.0 * (step > 50), contact))[:, 1].sum() == (
         0 if flicker else samples
     )
+
+
+@pytest.mark.parametrize("samples", [1, 2, 3, 4, 5, 400])
+@pytest.mark.parametrize("share", [0.2, 0.5, 0.8])
+def test_flicker_is_what_an_opening_of_three_samples_removes(samples: int, share: float) -> None:
+    down = np.random.default_rng(3).random((samples, 4)) < share
+    down[0, 0] = True  # the largest force of leg 1 is that of the contacts
+
+    def opened(signals: np.ndarray) -> np.ndarray:
+        longer = np.pad(signals, ((2, 2), (0, 0)), mode="edge")
+        return binary_opening(longer, np.ones((3, 1)))[2:-2]
+
+    np.testing.assert_array_equal(metrics.stance(10.0 * down), opened(~opened(~down)))
 
 
 def test_a_contact_cut_in_two_is_one() -> None:
