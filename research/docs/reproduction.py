@@ -83,10 +83,10 @@ def verdicts(claims: str, reasons: Sequence[dict[str, str]]) -> list[Verdict]:
 
 def table(found: Sequence[Verdict]) -> str:
     """The table of verdicts, each claim with a link to its figures."""
-    lines = ["| claim | in the paper | verdict | in short |", "|---|---|---|---|"]
+    lines = ["| claim, and where in the paper | verdict | in short |", "|---|---|---|"]
     for number, each in enumerate(found, start=1):
         link = f"[{each.claim}](reproduction/claims.md#claim-{number})"
-        lines.append(f"| {link} | {each.where} | **{each.verdict}** | {each.short} |")
+        lines.append(f"| {link} ({each.where}) | **{each.verdict}** | {each.short} |")
     return "\n".join(lines) + "\n"
 
 
@@ -106,7 +106,8 @@ def details(found: Sequence[Verdict]) -> str:
     """The page of what was measured, a section per claim."""
     parts = [HEAD]
     for number, each in enumerate(found, start=1):
-        parts.append(f'\n## <a id="claim-{number}"></a>{each.claim}\n\n')
+        heading = each.claim[:1].upper() + each.claim[1:]
+        parts.append(f'\n## <a id="claim-{number}"></a>{heading}\n\n')
         parts.append(f"**{each.verdict}** · {each.where}\n\n")
         if each.why:
             parts.append(f"{each.why}\n\n")

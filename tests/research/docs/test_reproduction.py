@@ -25,14 +25,14 @@ YES = {"where": "3.2", "claim": "it stops", "verdict": "reproduced", "short": "I
 def test_each_claim_has_its_line_and_its_section() -> None:
     found = verdicts(CLAIMS, [YES, PARTLY])
     assert table(found).splitlines()[2:] == [
-        "| [it walks](reproduction/claims.md#claim-1) | 3.1 | **partly** | Some. |",
-        "| [it stops](reproduction/claims.md#claim-2) | 3.2 | **reproduced** | In every run. |",
+        "| [it walks](reproduction/claims.md#claim-1) (3.1) | **partly** | Some. |",
+        "| [it stops](reproduction/claims.md#claim-2) (3.2) | **reproduced** | In every run. |",
     ]
     assert "| reproduced | partly | all |" in counts(found)
     assert "| 1 | 1 | 2 |" in counts(found)
     page = details(found)
     assert page.index("Ice.") < page.index("    - 1.2 s") < page.index("    - 0.8 s")
-    assert page.index('<a id="claim-2"></a>it stops') < page.index("- 20/20")
+    assert page.index('<a id="claim-2"></a>It stops') < page.index("- 20/20")
 
 
 def test_criteria_have_lists_of_their_own() -> None:
@@ -64,7 +64,7 @@ def test_words_without_their_verdict_are_refused(reasons: list[dict[str, str]], 
 def test_the_pages_show_the_words_of_the_file() -> None:
     page = reproduction.PAGE.read_text("utf-8")
     shown = re.findall(
-        r"(?m)^\| \[(.*)\]\(.*#claim-\d+\) \| (.*) \| \*\*(.*)\*\* \| (.*) \|$", page
+        r"(?m)^\| \[(.*)\]\(.*#claim-\d+\) \((.*)\) \| \*\*(.*)\*\* \| (.*) \|$", page
     )
     words = tomllib.loads(Path(reproduction.REASONS).read_text("utf-8"))["reason"]
     assert len(shown) == len(words) > 30
