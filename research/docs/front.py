@@ -1,4 +1,4 @@
-"""Draw the front of a search: lift against speed, every set that was walked again.
+"""Draw the Pareto front of a search: lift against speed of every set that was walked again.
 
 python -m research.docs.front docs/formation/front.csv docs/pictures/front.svg
 """
@@ -23,11 +23,13 @@ def figure(rows: list[dict[str, str]]) -> dict[str, object]:
     on_it = [row for row in rows if row["front"] == "1" and row["candidate"] != SHIPPED]
     every = [row for row in on_it if float(row["strict"]) == float(row["payload"]) == 1.0]
     groups = {
-        "beaten by another": ([r for r in rows if r["front"] == "0"], theme.GREY, "x-thin-open", 7),
-        "front, but not every walk a trot": (
+        "dominated by another": (
+            [row for row in rows if row["front"] == "0"], theme.GREY, "x-thin-open", 7,
+        ),
+        "Pareto front, not every walk a trot": (
             [row for row in on_it if row not in every], theme.ORANGE, "diamond-open", 10,
         ),
-        "front, every walk a trot, under the payload, too": (every, theme.BLUE, "circle", 10),
+        "Pareto front, every walk a trot, with the payload, too": (every, theme.BLUE, "circle", 10),
         "shipped": ([r for r in rows if r["candidate"] == SHIPPED], theme.VERMILLION, "star", 16),
     }  # fmt: skip
     data = [
