@@ -30,7 +30,7 @@ from apnc.cli.console import (
 )
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.controllers import CONTROLLERS
-from apnc.loop.steps import parse_steps
+from apnc.loop.schedule import parse_schedule
 from apnc.report import RUN_FILES
 from apnc_core.enumerations import Method
 from apnc_plant.conditions import CONDITIONS
@@ -143,7 +143,7 @@ def experiment_of(options: Mapping[str, Any]) -> Experiment:
     given = {f.name: said[f.name] for f in fields(apnc.Experiment) if f.name in said}
     for name, option, convert in _OVER:
         if option in said:
-            given[name] = parse_steps(option, said[option], convert)
+            given[name] = parse_schedule(option, said[option], convert)
     given |= _ground(*map(said.get, ("ground", "roughness", "slope", "seed")))
     settings: dict[str, Any] = {}
     if "params" in said:

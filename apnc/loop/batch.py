@@ -14,7 +14,7 @@ from apnc.loop.controller_library import ControllerLibrary, controller_library
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuError
 from apnc.loop.record import End, Record, merged
-from apnc.loop.steps import steps_of
+from apnc.loop.schedule import steps_of
 from apnc_core.schema import Shape
 from apnc_core.types import Array
 from apnc_core.variables import variable_named

@@ -7,25 +7,28 @@ import json
 import math
 import shlex
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
-from functools import cached_property, lru_cache
+from dataclasses import field, fields
+from functools import cached_property, lru_cache, partial
 from pathlib import Path
-from typing import Any, Final
+from typing import Annotated, Any, Final
+
+from pydantic import AfterValidator, WrapValidator
 
 from apnc.controllers import OWN_CONTROLLER, named_controller
+from apnc.loop.as_dict import to_dict
 from apnc.loop.code import code_hash
 from apnc.loop.engines import OWN_ENGINE, check_engine
-from apnc.loop.plain import made, plain
-from apnc.loop.steps import Over, check_steps, mapped, steps_of, steps_text
+from apnc.loop.schedule import Schedule, checked_schedule, schedule_text, steps_of
 from apnc_core.enumerations import Method
 from apnc_core.frozen import Frozen
-from apnc_core.in_python import in_python
 from apnc_core.presets import PRESETS, preset
 from apnc_core.schema import Causality
-from apnc_core.settings import SettingLike, checked
+from apnc_core.settings import Setting, SettingLike
+from apnc_core.settings import checked as checked_setting
 from apnc_core.variables import variable_named, variables_of
 from apnc_plant.chance import LARGEST_SEED
 from apnc_plant.conditions import CONDITIONS, Conditions, named_conditions
+from apnc_plant.files import Number, checked, checked_table, limits
 from apnc_plant.ground import Ground, Plane, from_dict
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
@@ -34,22 +37,83 @@ from apnc_plant.robot.model import OF_THE_RUN
 OWN_PRESET: Final = "robot"
 """The preset that takes the table's defaults and what the robot's file sets of them."""
 
-_OVER_TIME: Final[Mapping[str, Callable[[Any], Any]]] = {
-    "mi": float,
-    "turn": float,
-    "reset": bool,
-    "conditions": lambda value: value,
-}
-"""Fields that hold one value or steps over time, and what gives each value its type."""
-
 SET_ELSEWHERE: Final = {"Ts": "rate", "method": "controller"}
 """Parameters that are no settings, and the field that each comes from."""
 
-_NUMBERS: Final = ("duration", "rate", "step")
-"""Fields that hold a number."""
+
+def _over_time(check: Callable[[Any], Any]) -> WrapValidator:
+    """Validator of a schedule; ``check`` gives each value its type, or refuses it."""
+    return WrapValidator(lambda value, _: checked_schedule(value, check))
 
 
-@dataclass(frozen=True)
+def _in_range(variable: str) -> Callable[[Any], float]:
+    limits = variable_named(variable)
+    low, high = limits.min, limits.max
+    assert low is not None and high is not None
+
+    def check(value: Any) -> float:
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise ValueError(f"{value!r} is not a number")
+        if not low <= value <= high:
+            raise ValueError(f"{value} is not in {low:g} ... {high:g}")
+        return float(value)
+
+    return check
+
+
+def _boolean(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise ValueError(f"{value!r} is not true or false")
+    return value
+
+
+def _conditions(value: Any) -> str | Conditions:
+    if isinstance(value, str):
+        named_conditions(value)
+        return value
+    if isinstance(value, Mapping):
+        return checked_table(Conditions, value)
+    if not isinstance(value, Conditions):
+        raise ValueError(f"{value!r} is not a name or conditions")
+    return value
+
+
+def _robot(value: Any, _: Any) -> str | RobotDescription:
+    if isinstance(value, Mapping):
+        return RobotDescription(**value)
+    if not isinstance(value, str | RobotDescription):
+        raise ValueError(f"{value!r} is not a name, a file or a description")
+    return value
+
+
+def _ground(value: Any, _: Any) -> Ground:
+    if isinstance(value, Mapping):
+        return from_dict(value)
+    if not isinstance(value, Ground):
+        raise ValueError(f"{value!r} is not a ground")
+    return value
+
+
+def _if_given(value: Any, check: Callable[[Any], float]) -> float | None:
+    return None if value is None else check(value)
+
+
+def _settings(values: Mapping[str, Any]) -> Frozen[Setting]:
+    for name in SET_ELSEWHERE:
+        if name in values:
+            raise ValueError(
+                f"{name} = {values[name]} is not set here, but by {SET_ELSEWHERE[name]}"
+            )
+    return Frozen({name: checked_setting(name, value) for name, value in values.items()})
+
+
+Seed = Annotated[
+    int, limits(allowed="a whole number from 0 to 2^64 - 1", strict=True, ge=0, le=LARGEST_SEED)
+]
+Settings = Annotated[Mapping[str, Any], AfterValidator(_settings)]
+
+
+@checked(ValueError)
 class Experiment:
     """What is run. Frozen plain data, checked when it is made.
 
@@ -80,34 +144,31 @@ class Experiment:
         ValueError: a value outside what is allowed, or names that the robot does not have.
     """
 
-    robot: str | RobotDescription = "lilibot"
-    mi: Over[float] = 0.08
-    duration: float = 45.0
-    seed: int = 0
+    robot: Annotated[str | RobotDescription, WrapValidator(_robot)] = "lilibot"
+    mi: Annotated[Schedule[float], _over_time(_in_range("MI"))] = 0.08
+    duration: Number = 45.0
+    seed: Seed = 0
     controller: str | None = None
     preset: str = OWN_PRESET
-    settings: Mapping[str, SettingLike] = field(default_factory=dict)
-    ground: Ground = field(default_factory=Plane)
-    conditions: Over[str | Conditions] = "C1"
-    turn: Over[float] = 0.0
-    reset: Over[bool] = False
-    rate: float = None  # type: ignore[assignment]  # a number once it is made
-    step: float = PlantOptions().step
+    settings: Settings = field(default_factory=partial(Frozen, {}))
+    ground: Annotated[Ground, WrapValidator(_ground)] = field(default_factory=Plane)
+    conditions: Annotated[Schedule[str | Conditions], _over_time(_conditions)] = "C1"
+    turn: Annotated[Schedule[float], _over_time(_in_range("turn"))] = 0.0
+    reset: Annotated[Schedule[bool], _over_time(_boolean)] = False
+    rate: Annotated[Number, WrapValidator(_if_given)] = None  # type: ignore[assignment]  # a number once it is made
+    step: Number = PlantOptions().step
     engine: str = OWN_ENGINE
-    fmu: str | None = None
+    fmu: Annotated[str, limits(allowed="the path of a file")] | None = None
 
     def __post_init__(self) -> None:
         """Check everything before anything runs."""
-        self._put({f.name: in_python(getattr(self, f.name)) for f in fields(self)})
-        self._check_kinds()
-        omitted = {n: value for n, value in self._of_fmu().items() if getattr(self, n) is None}
-        self._put(omitted)
-        check_steps("mi", self.mi, lambda name, value: _in_range("MI", value, name))
-        check_steps("turn", self.turn, lambda name, value: _in_range("turn", value, name))
-        check_steps("reset", self.reset, _boolean)
-        check_steps("conditions", self.conditions, self._known_conditions)
-        loads = {conditions_of(value).payload for _, value in steps_of(self.conditions)}
-        if len(loads) > 1:
+        for name, value in self._of_fmu().items():
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, value)
+        present = [conditions_of(value) for _, value in steps_of(self.conditions)]
+        for each in present:
+            each.check_legs(tuple(leg.name for leg in self.description.legs))
+        if len(loads := {each.payload for each in present}) > 1:
             raise ValueError(f"payload changes during the run: {sorted(loads)} kg; allowed: one")
         if self.controller is not None:
             named_controller(self.controller)
@@ -115,29 +176,6 @@ class Experiment:
         check_engine(self.engine)
         PlantOptions(step=self.step)
         self.parameters()
-        # equal experiments are equal however their numbers came, and nothing in them can change
-        own = {name: checked(name, value) for name, value in self.settings.items()}
-        self._put({name: float(getattr(self, name)) for name in _NUMBERS})
-        self._put({name: mapped(getattr(self, name), kind) for name, kind in _OVER_TIME.items()})
-        self._put({"settings": Frozen(own)})
-
-    def _put(self, values: Mapping[str, Any]) -> None:
-        for name, value in values.items():
-            object.__setattr__(self, name, value)
-
-    def _check_kinds(self) -> None:
-        """Refuse what is of another kind than its field."""
-        if not isinstance(self.robot, str | RobotDescription):
-            raise ValueError(f"robot = {self.robot!r} is not a name, a file or a description")
-        if not isinstance(self.fmu, str | None):
-            raise ValueError(f"fmu = {self.fmu!r} is not a file")
-        if not isinstance(self.settings, Mapping):
-            raise ValueError(f"settings = {self.settings!r} are not values by name")
-        if not isinstance(self.ground, Ground):
-            raise ValueError(f"ground = {self.ground!r} is not a ground")
-        whole = isinstance(self.seed, int) and not isinstance(self.seed, bool)
-        if not whole or not 0 <= self.seed <= LARGEST_SEED:
-            raise ValueError(f"seed = {self.seed} is not a whole number from 0 to 2^64 - 1")
 
     def _of_fmu(self) -> dict[str, Any]:
         """Fields that the FMU says itself, or else the defaults."""
@@ -145,8 +183,6 @@ class Experiment:
         return {"rate": 1.0 / Ts, "controller": OWN_CONTROLLER if self.fmu is None else None}
 
     def _check_times(self) -> None:
-        for name in _NUMBERS:
-            _number(name, getattr(self, name))
         limits = variable_named("Ts")
         assert limits.min is not None and limits.max is not None
         if not (self.rate > 0.0 and limits.min <= 1.0 / self.rate <= limits.max):
@@ -158,9 +194,6 @@ class Experiment:
             raise ValueError(
                 f"duration = {self.duration} s is not one tick; allowed: {self.Ts:.4g} s and more"
             )
-
-    def _known_conditions(self, _: str, value: Any) -> None:
-        conditions_of(value).check_legs(tuple(leg.name for leg in self.description.legs))
 
     @property
     def Ts(self) -> float:  # noqa: N802  # the paper's symbol
@@ -230,10 +263,7 @@ class Experiment:
         if self.controller is not None:
             used = named_controller(self.controller)
             values |= {"method": Method[used.method], **used.settings}
-        for name, value in self.settings.items():
-            if name in SET_ELSEWHERE:
-                raise ValueError(f"{name} = {value} is not set here, but by {SET_ELSEWHERE[name]}")
-            values[name] = checked(name, value)
+        values |= self.settings
         relations, legs = values["phi_stored"], len(self.description.legs)
         assert isinstance(relations, Sequence)
         if len(relations) not in (0, legs - 1):
@@ -259,7 +289,7 @@ class Experiment:
 
     def to_dict(self) -> dict[str, Any]:
         """Every field as plain data for JSON, the robot by its name unless it is an object."""
-        values: dict[str, Any] = plain(self)
+        values: dict[str, Any] = to_dict(self)
         return values | {"ground": self.ground.to_dict()}
 
     @classmethod
@@ -271,16 +301,11 @@ class Experiment:
         """
         if not isinstance(data, Mapping):
             raise ValueError(f"not an experiment: a {type(data).__name__} in place of a table")
-        values = dict(data)
+        if missing := [f.name for f in fields(cls) if f.name not in data]:
+            raise ValueError(f"not an experiment: {missing[0]} is missing")
         try:
-            values["robot"] = made(RobotDescription, values["robot"])
-            values["ground"] = from_dict(values["ground"])
-            for name in _OVER_TIME:
-                values[name] = mapped(values[name], lambda value: made(Conditions, value))
-            return cls(**values)
-        except KeyError as error:
-            raise ValueError(f"not an experiment: it has no {error}") from None
-        except (AttributeError, TypeError) as error:  # a text or a list in place of a table
+            return checked_table(cls, data)
+        except ValueError as error:
             raise ValueError(f"not an experiment: {error}") from None
 
     def key(self) -> str:
@@ -315,9 +340,9 @@ class Experiment:
             elif name == "robot":
                 words += ["--robot", value if isinstance(value, str) else value.name]
             elif name == "conditions":
-                words += ["--condition", steps_text(value, _name_of)]
+                words += ["--condition", schedule_text(value, _name_of)]
             else:
-                words += [f"--{name}", steps_text(value)]
+                words += [f"--{name}", schedule_text(value)]
         return shlex.join(words)
 
     def _objects(self) -> list[str]:
@@ -347,7 +372,7 @@ def _name_of(value: str | Conditions) -> str:
 
 
 def _digest(value: Any) -> str:
-    return hashlib.sha256(json.dumps(plain(value), sort_keys=True).encode()).hexdigest()
+    return hashlib.sha256(json.dumps(to_dict(value), sort_keys=True).encode()).hexdigest()
 
 
 @lru_cache
@@ -361,29 +386,11 @@ def _shipped(name: str) -> RobotDescription:
     return load_robot(name)
 
 
-def _number(name: str, value: Any) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"{name} = {value!r} is not a number")
-
-
-def _in_range(variable: str, value: Any, name: str) -> None:
-    limits = variable_named(variable)
-    assert limits.min is not None and limits.max is not None
-    _number(name, value)
-    if not limits.min <= value <= limits.max:
-        raise ValueError(f"{name} = {value} is not in {limits.min:g} ... {limits.max:g}")
-
-
-def _boolean(name: str, value: Any) -> None:
-    if not isinstance(value, bool):
-        raise ValueError(f"{name} = {value} is not true or false")
-
-
 def _setting_text(name: str, value: Any) -> str:
     enumeration = variable_named(name).enumeration
     if enumeration:
         return enumeration.items(value).name
-    return json.dumps(plain(value))
+    return json.dumps(to_dict(value))
 
 
 @lru_cache

@@ -8,10 +8,10 @@ from importlib.metadata import version
 from typing import Any, Final
 
 import apnc_core
+from apnc.loop.as_dict import to_dict
 from apnc.loop.code import code_hash
 from apnc.loop.engines import EXTRAS
 from apnc.loop.experiment import Experiment
-from apnc.loop.plain import plain
 from apnc_core.settings import Setting
 
 _LIBRARIES: Final = ("cffi", "exudyn", "fmpy", "numpy")
@@ -31,7 +31,7 @@ def what_was_run(
         "command": experiment.command(),
         "key": experiment.key(),
         "experiment": experiment.to_dict(),
-        "parameters": plain(parameters or experiment.parameters()),
+        "parameters": to_dict(parameters or experiment.parameters()),
         "versions": {
             "apnc": apnc_core.__version__,
             "python": platform.python_version(),

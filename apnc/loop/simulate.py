@@ -14,7 +14,7 @@ from apnc.loop.engines import COMPILED, plant_in
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuController
 from apnc.loop.record import End, Record, merged
-from apnc.loop.steps import Course
+from apnc.loop.schedule import ScheduleLookup
 from apnc_plant.options import PlantOptions
 from apnc_plant.plant import Plant, PlantError
 from build_fmu.build import host_fmu
@@ -85,7 +85,7 @@ def plant_of(experiment: Experiment) -> Plant:
         experiment.seed,
         options=PlantOptions(step=experiment.step),
         ground=experiment.ground,
-        conditions=conditions_of(Course(experiment.conditions).at(0.0)),
+        conditions=conditions_of(ScheduleLookup(experiment.conditions).at(0.0)),
     )
 
 
@@ -97,8 +97,8 @@ def _run(
     stop: Stop,
 ) -> Record:
     begin, Ts = time.perf_counter(), experiment.Ts
-    mi, turn = Course(experiment.mi), Course(experiment.turn)
-    reset, conditions = Course(experiment.reset), Course(experiment.conditions)
+    mi, turn = ScheduleLookup(experiment.mi), ScheduleLookup(experiment.turn)
+    reset, conditions = ScheduleLookup(experiment.reset), ScheduleLookup(experiment.conditions)
     body, brain, parameters = plant.trace(), controller.trace(), controller.parameters()
     end, message, present = End.complete, "", conditions.at(0.0)
     for n in range(experiment.ticks):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 from apnc import metrics
 from apnc.loop.columns import TIME, columns
 from apnc.loop.record import Record
-from apnc.loop.steps import steps_text
+from apnc.loop.schedule import schedule_text
 from apnc_core.schema import Shape
 from apnc_core.variables import TABLE
 from apnc_plant.signals import ANGLES, JOINTS, PLANT_SIGNALS, XYZ
@@ -77,7 +77,7 @@ def _run(record: Record) -> dict[str, str]:
     return {
         "robot": record.robot.name,
         "controller": record.experiment.controller_name,
-        "MI": steps_text(record.experiment.mi),
+        "MI": schedule_text(record.experiment.mi),
         "seed": str(record.experiment.seed),
         "end": ended,
         "duration": f"{record.ended_at:g} s",

@@ -10,7 +10,7 @@ from typing import Any, Final
 from apnc import metrics
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import End, Record
-from apnc.loop.steps import steps_text
+from apnc.loop.schedule import schedule_text
 from apnc.summary import Summary
 from apnc_plant.conditions import Conditions
 
@@ -138,7 +138,7 @@ def _plain(value: Any) -> str:
         words = [f"{k} {_plain(v)}" for k, v in changed.items() if v != getattr(default, k)]
         return ", ".join(words) or "none"
     if isinstance(value, tuple) and value and isinstance(value[0], tuple):
-        return steps_text(tuple((start, _plain(entry)) for start, entry in value))
+        return schedule_text(tuple((start, _plain(entry)) for start, entry in value))
     if isinstance(value, tuple | list):
         return " ".join(_plain(entry) for entry in value)
     if hasattr(value, "text"):

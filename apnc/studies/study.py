@@ -15,7 +15,7 @@ from apnc.loop.code import hash_of_package
 from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
-from apnc.loop.steps import steps_text
+from apnc.loop.schedule import schedule_text
 from apnc.report.figure import Figure
 from apnc.studies.claims import Claim
 from apnc.studies.registry import CONTROLLERS_OPTION, ROBOT, Entry
@@ -178,7 +178,7 @@ class Study:
         length = experiment.duration if duration is None else duration
         engine = self.engine or experiment.engine
         experiment = replace(experiment, settings=settings, duration=length, engine=engine)
-        mi = experiment.mi if isinstance(experiment.mi, int | float) else steps_text(experiment.mi)
+        mi = experiment.mi if isinstance(experiment.mi, int | float) else schedule_text(experiment.mi)
         first = {"controller": cell["controller"], "mi": mi, "seed": cell["seed"]}
         whole = {**first, "duration": experiment.duration, **cell, **own}
         return Trial(self.entry, whole, experiment)

@@ -26,8 +26,8 @@ from apnc import (
     run_study,
     write_gait,
 )
+from apnc.loop.as_dict import to_dict
 from apnc.loop.fmu_controller import FmuController
-from apnc.loop.plain import plain
 from apnc.studies.runner import grid_of
 from apnc_core.in_python import in_python
 from apnc_core.settings import checked
@@ -106,15 +106,15 @@ def test_a_float_of_single_precision_is_the_number_that_it_is() -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"mi": "0.1"}, "mi = '0.1' is not a number"),
-        ({"seed": True}, "seed = True is not a whole number from 0 to 2^64 - 1"),
-        ({"seed": np.float64(3)}, "seed = 3.0 is not a whole number"),
-        ({"rate": "fast"}, "rate = 'fast' is not a number"),
-        ({"duration": None}, "duration = None is not a number"),
-        ({"step": "0.001"}, "step = '0.001' is not a number"),
-        ({"robot": 5}, "robot = 5 is not a name, a file or a description"),
-        ({"fmu": 5}, "fmu = 5 is not a file"),
-        ({"settings": None}, "settings = None are not values by name"),
+        ({"mi": "0.1"}, "mi: '0.1' is not a number"),
+        ({"seed": True}, "seed is True; allowed: a whole number from 0 to 2^64 - 1"),
+        ({"seed": np.float64(3)}, "seed is 3.0; allowed: a whole number"),
+        ({"rate": "fast"}, "rate is 'fast'; allowed: a finite number"),
+        ({"duration": None}, "duration is None; allowed: a finite number"),
+        ({"step": "0.001"}, "step is '0.001'; allowed: a finite number"),
+        ({"robot": 5}, "robot: 5 is not a name, a file or a description"),
+        ({"fmu": 5}, "fmu is 5; allowed: the path of a file"),
+        ({"settings": None}, "settings is None; allowed: a table"),
         ({"settings": {"N": np.float32(40)}}, "N = 40.0; allowed: a whole number"),
         ({"settings": {"xi": np.array([0.1, 0.2])}}, "xi = [0.1, 0.2]; allowed: a number"),
     ],
@@ -197,4 +197,4 @@ def test_what_is_no_number_stays_what_it_is() -> None:
     assert in_python(kept) == kept and all(
         a is b for a, b in zip(in_python(kept), kept, strict=True)
     )
-    assert plain(in_python([np.int8(1), (np.float16(0.5), Path("x"))])) == [1, [0.5, "x"]]
+    assert to_dict(in_python([np.int8(1), (np.float16(0.5), Path("x"))])) == [1, [0.5, "x"]]

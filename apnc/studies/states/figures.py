@@ -1,4 +1,4 @@
-"""Speeds in the states S1 to S3, and one run of each kind over time (Fig. 10-12)."""
+"""Figures of the states S1 to S3: speeds, and a run with and without couplings (Fig. 10-12)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import conditions_of
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
-from apnc.loop.steps import steps_of
+from apnc.loop.schedule import steps_of
 from apnc.report import theme
 from apnc.report.figure import Figure, Trace
 from apnc.report.figures import all_figures
@@ -29,7 +29,7 @@ from apnc_core import load
 COUPLINGS: Final = {"apnc": "with ANC", "apc": "without ANC"}
 STATES: Final = ("S1", "S2", "S3")
 PANELS: Final = ("cpg", "phi", "gait", "gamma", "kappa")
-"""Of the report of a walk: outputs, relative phases, stances, gain of the feedback, couplings."""
+"""Panels of a walk's report to show: outputs, relative phases, stances, gain, couplings."""
 
 _INTERVALS: Final = (
     (TIMELINE.lowered, TIMELINE.broken, "S1"),
@@ -51,7 +51,7 @@ def figures(results: Sequence[Result]) -> list[Figure]:
 
 
 def scenes(robot: Robot) -> list[Figure]:
-    """The run of seed 0 with and without the couplings, over time."""
+    """Run seed 0 with and without the couplings, and draw both over time."""
     runs = {
         words: simulate(TIMELINE.experiment(controller, 0, robot=robot, engine=COMPILED))
         for controller, words in COUPLINGS.items()
@@ -60,7 +60,7 @@ def scenes(robot: Robot) -> list[Figure]:
 
 
 def over_time(record: Record, words: str) -> list[Figure]:
-    """Command and loads, then the ``PANELS`` of a run, with the states marked."""
+    """Command, loads and the ``PANELS`` of a run, with the states marked."""
     run = Run(record, summarise(record))
     panels = [_loads(run), *(panel for panel in all_figures(run) if panel.key in PANELS)]
     return [
@@ -74,7 +74,7 @@ def over_time(record: Record, words: str) -> list[Figure]:
 
 
 def _loads(run: Run) -> Figure:
-    """MI, and the load of every foot as the circuits get it beside that of the ground."""
+    """MI, and for every foot the load that the circuits get beside the force of the ground."""
     record = run.record
     parameters: dict[str, Any] = dict(record.experiment.parameters())
     weight = parameters["robot_weight"]
@@ -117,7 +117,7 @@ def _loads(run: Run) -> Figure:
 
 
 def broken(record: Record) -> NDArray[np.bool_]:
-    """When which sensor is stuck or silent, shape (T, n)."""
+    """Whether each sensor is stuck or silent at each tick, shape (T, n)."""
     found = np.zeros((len(record), record.n_legs), dtype=np.bool_)
     for start, entry in steps_of(record.experiment.conditions):
         conditions = conditions_of(entry)

@@ -10,7 +10,7 @@ import numpy as np
 
 from apnc import metrics
 from apnc.loop.record import Record
-from apnc.loop.steps import steps_of
+from apnc.loop.schedule import steps_of
 from apnc.studies.claims import FEW, MIN_SEEDS, NO, PARTLY, YES, Claim, Finding, ranks, verdict
 from apnc.studies.registry import STUDIES
 from apnc.studies.results import Result, cells_in, matching, values
@@ -20,7 +20,7 @@ from apnc.studies.steering.schedules import SLOPES, SPEED, YAW_RATE, experiment
 from apnc.studies.study import Study
 
 SETTLING: Final = 5.0
-"""Time from the start of an interval that does not count: the robot follows a new command [s]."""
+"""Time at the start of an interval that does not count. The robot takes up a new command [s]."""
 
 
 def measure(record: Record) -> Result:
@@ -52,9 +52,9 @@ def measure(record: Record) -> Result:
 
 
 def speed_steps(results: Sequence[Result]) -> Finding:
-    """Speed doubles within a fifth with the step of MI, and comes back within 15 %.
+    """The step of MI doubles the speed, within a fifth, and the speed returns within 15 %.
 
-    Faster at the higher MI is 'partly'.
+    Faster at the higher MI is partly.
     """
     runs = matching(results, schedule="speeds")
     low, high, again = (median(values(runs, f"{SPEED}_{i}")) for i in (1, 2, 3))
@@ -67,9 +67,9 @@ def speed_steps(results: Sequence[Result]) -> Finding:
 
 
 def turns(results: Sequence[Result]) -> Finding:
-    """The intervals of the yaw rate are below 0 to the right and above 0 to the left.
+    """The 95 % intervals of the yaw rate are below 0 to the right and above 0 to the left.
 
-    Less to the left on the way to the right is 'partly'.
+    A smaller median to the right than to the left is partly.
     """
     runs = matching(results, schedule="turns")
     right, left = (median(values(runs, f"{YAW_RATE}_{i}")) for i in (2, 3))
@@ -80,7 +80,7 @@ def turns(results: Sequence[Result]) -> Finding:
 
 
 def slopes_speed(results: Sequence[Result]) -> Finding:
-    """Speed grows with the slopes, see ``ranks``; only up to the robot's own is 'partly'."""
+    """Speed rises with the slopes, see ``ranks``. Only up to the robot's own slopes is partly."""
     runs = [
         {**result, "slopes": SLOPES[result["schedule"]]}
         for result in results

@@ -1,4 +1,4 @@
-"""Speed and yaw rate per interval, and one run along each schedule over time (Fig. 13, 14)."""
+"""Figures of the schedules: speed and yaw rate per interval, and a run over time (Fig. 13, 14)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from apnc import metrics
 from apnc.loop.engines import COMPILED
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
-from apnc.loop.steps import steps_of
+from apnc.loop.schedule import steps_of
 from apnc.report import theme
 from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
@@ -26,11 +26,11 @@ from apnc.summary import summarise
 from apnc_core.types import Array
 
 WAYS: Final = ("straight", "right", "left", "straight again")
-"""What the robot is told to do in each interval of the schedule of turns."""
+"""Name of each interval of the schedule of turns."""
 
 
 def figures(results: Sequence[Result]) -> list[Figure]:
-    """Speed over the intervals of the one schedule, yaw rate over those of the other."""
+    """Speed over the intervals of the schedule of speeds, and yaw rate over those of turns."""
     mis = [f"MI {mi:g}, interval {i}" for i, (_, mi) in enumerate(SPEEDS, start=1)]
     return [
         side_by_side(f"steering-{schedule}", title, note, unit, {
@@ -46,7 +46,7 @@ def figures(results: Sequence[Result]) -> list[Figure]:
 
 
 def scenes(robot: Robot) -> list[Figure]:
-    """The run of seed 0 along each schedule."""
+    """Run seed 0 along each schedule and draw it over time."""
     speeds, turns = (
         simulate(experiment(schedule, robot=robot, engine=COMPILED))
         for schedule in ("speeds", "turns")
@@ -55,7 +55,7 @@ def scenes(robot: Robot) -> list[Figure]:
 
 
 def speeds_over_time(record: Record) -> Figure:
-    """MI, speed, way and stride frequency over the schedule of speeds."""
+    """MI, speed, path length and stride frequency over the schedule of speeds."""
     run, plant, time = Run(record, summarise(record)), record.signals, record.time
     (velocity_x, velocity_y, _), yaw = plant["velocity"].T, plant["rpy"][:, 2]
     ahead = velocity_x * np.cos(yaw) + velocity_y * np.sin(yaw)
@@ -110,7 +110,7 @@ def turns_over_time(record: Record) -> Figure:
 
 
 def path(record: Record) -> Figure:
-    """Path of the trunk from above along the schedule of turns, a colour per interval."""
+    """Path of the trunk from above along the schedule of turns, one colour per interval."""
     at = metrics.smooth(record.signals["position"][:, :2])
     traces: list[Trace] = []
     intervals = _intervals(record, record.experiment.turn, WAYS)
@@ -145,7 +145,7 @@ def _command(run: Run, values: Array) -> Trace:
 
 
 def _frequencies(run: Run) -> list[Trace]:
-    """Stride frequency of every leg, a point per cycle of its oscillator, drawn at its middle."""
+    """Stride frequency of every leg, one point in the middle of each cycle of its oscillator."""
     record, c = run.record, run.record.signals
     traces = []
     for starts, (leg, colour) in zip(

@@ -1,4 +1,4 @@
-"""The schedules of Fig. 13 and 14: commands over time, and what they are measured by."""
+"""The schedules of commands of Fig. 13 and 14."""
 
 from __future__ import annotations
 
@@ -6,27 +6,27 @@ from dataclasses import replace
 from typing import Any, Final
 
 from apnc.loop.experiment import Experiment
-from apnc.loop.steps import Steps
+from apnc.loop.schedule import Steps
 from apnc.studies.study import SCHEDULE_MI
 
 SPEEDS: Final[Steps[float]] = ((0.0, SCHEDULE_MI), (25.0, 0.4), (40.0, SCHEDULE_MI))
 """Start [s] and MI of every interval of the schedule of Fig. 13."""
 
 TURNS: Final[Steps[float]] = ((0.0, 0.0), (20.0, -1.0), (35.0, 1.0), (50.0, 0.0))
-"""Start [s] and steering of every interval of the schedule of Fig. 14; positive turns left."""
+"""Start [s] and steering of every interval of the schedule of Fig. 14. Positive is to the left."""
 
 SPEED, YAW_RATE = "speed_section", "yaw_rate_section"
-
+"""Start of the names of the figures of an interval. Its number follows, from 1."""
 
 SLOPES: Final = {f"slopes x {factor:g}": factor for factor in (0.6, 0.8, 1.0, 1.2, 1.4)}
-"""Factor on both slopes of the motor neurons, by schedule: straight walks."""
+"""Factor on both slopes of the motor neurons in straight walks, by name of the walk."""
 
 SLOPES_S: Final = 25.0
-"""Length of these walks [s]."""
+"""Length of the straight walks [s]."""
 
 
 def experiment(schedule: str, **fields: Any) -> Experiment:
-    """A walk along a schedule."""
+    """A walk along a schedule, or a straight walk with other slopes."""
     walk = Experiment(mi=SCHEDULE_MI, duration=60.0, **fields)
     if schedule == "speeds":
         return replace(walk, mi=SPEEDS)

@@ -136,7 +136,7 @@ def test_short_forms_of_the_ground() -> None:
         (["--ground", "moon"], "ground 'moon' is not one of"),
         (["--reset", "maybe"], "reset = 'maybe' is not a value"),
         (["--mi", "0:0.1,soon:0.2"], "mi = '0:0.1,soon:0.2' is not a value"),
-        (["--turn", "1:0.1"], "steps of turn start at"),
+        (["--turn", "1:0.1"], "turn: steps start at"),
         (["--condition", "0:C1,5:C4"], "payload changes during the run"),
         (["--slope", "90"], "slope is 1.57"),
         (["--params", "no.json"], "no.json cannot be read"),

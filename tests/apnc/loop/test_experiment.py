@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 
 from apnc import Conditions, Experiment, Obstacles, load_robot
+from apnc.loop.as_dict import to_dict
 from apnc.loop.code import code_hash, hash_of_package
-from apnc.loop.plain import plain
 from apnc.loop.provenance import what_was_run
 from apnc_core.enumerations import Method
 
@@ -25,21 +25,21 @@ from apnc_core.enumerations import Method
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"mi": 1.5}, "mi = 1.5 is not in 0 ... 1"),
-        ({"mi": ((0, 0.1), (2, 7))}, "mi = 7 is not in 0 ... 1"),
-        ({"mi": True}, "mi = True is not a number"),
-        ({"turn": -2}, "turn = -2 is not in -1 ... 1"),
-        ({"reset": 1}, "reset = 1 is not true or false"),
+        ({"mi": 1.5}, "mi: 1.5 is not in 0 ... 1"),
+        ({"mi": ((0, 0.1), (2, 7))}, "mi: 7 is not in 0 ... 1"),
+        ({"mi": True}, "mi: True is not a number"),
+        ({"turn": -2}, "turn: -2 is not in -1 ... 1"),
+        ({"reset": 1}, "reset: 1 is not true or false"),
         ({"controller": "cow"}, "controller 'cow' is not one of apnc, apc"),
         ({"preset": "cow"}, "preset 'cow' is not one of robot, lilibot, paper"),
-        ({"seed": -1}, "seed = -1 is not a whole number"),
-        ({"seed": 0.5}, "seed = 0.5 is not a whole number"),
-        ({"seed": 2**64}, "is not a whole number from 0 to 2^64 - 1"),
-        ({"ground": 0.5}, "ground = 0.5 is not a ground"),
-        ({"rate": 0}, "rate = 0 Hz is not in 1 ... 10000 Hz"),
+        ({"seed": -1}, "seed is -1; allowed: a whole number from 0"),
+        ({"seed": 0.5}, "seed is 0.5; allowed: a whole number from 0 to 2^64 - 1"),
+        ({"seed": 2**64}, "allowed: a whole number from 0 to 2^64 - 1"),
+        ({"ground": 0.5}, "ground: 0.5 is not a ground"),
+        ({"rate": 0}, "rate = 0.0 Hz is not in 1 ... 10000 Hz"),
         ({"rate": 1e9}, "is not in 1 ... 10000 Hz"),
-        ({"duration": 0}, "duration = 0 s is not a positive time"),
-        ({"duration": float("inf")}, "duration = inf s is not a positive time"),
+        ({"duration": 0}, "duration = 0.0 s is not a positive time"),
+        ({"duration": float("inf")}, "duration is inf; allowed: a finite number"),
         ({"duration": 1e308}, "duration = 1e+308 s is not a positive time"),
         ({"duration": 0.008}, "duration = 0.008 s is not one tick; allowed: 0.01667 s and more"),
         ({"step": 0.0}, "step is 0.0"),
@@ -254,14 +254,14 @@ def test_conditions_come_back_from_plain_data() -> None:
     ("change", "words"),
     [
         ({"robot": {"name": "x"}}, "not an experiment: "),
-        ({"robot": {**plain(load_robot("lilibot")), "sensor": {"delay": -1.0}}}, "delay is -1.0"),
+        ({"robot": {**to_dict(load_robot("lilibot")), "sensor": {"delay": -1.0}}}, "delay is -1.0"),
         ({"cow": 1}, "not an experiment: "),
-        ({"reset": "maybe"}, "reset = maybe is not true or false"),
+        ({"reset": "maybe"}, "reset: 'maybe' is not true or false"),
         ({"mi": [0.1, 0.2]}, "not an experiment: "),
         ({"conditions": {"cow": 1}}, "not an experiment: "),
         ({"ground": {"kind": "moon"}}, "ground 'moon' is not one of"),
         ({"ground": "plane"}, "not an experiment: "),
-        ({"settings": None}, "settings = None are not values by name"),
+        ({"settings": None}, "settings is None; allowed: a table"),
         ({"conditions": {"stuck": 5}}, "not an experiment: "),
     ],
 )

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from apnc.controllers import ALL, BASELINES, named_controller
-from apnc.loop.steps import parse_steps, steps_of
+from apnc.loop.schedule import parse_schedule, steps_of
 from apnc.studies import gains
 from apnc.studies.registry import STUDIES, names_of
 from apnc.studies.runner import grid_of
@@ -162,7 +162,7 @@ def test_states_follow_the_timeline() -> None:
             (20.0, "S3"),
         )
         assert trial.experiment.mi == ((0.0, 0.15), (20.0, 0.0), (24.0, 0.15))
-        assert parse_steps("mi", trial.cell["mi"], float) == trial.experiment.mi
+        assert parse_schedule("mi", trial.cell["mi"], float) == trial.experiment.mi
 
 
 def test_steering_turns_right_and_then_left() -> None:
@@ -213,7 +213,7 @@ def test_methods_of_all_leave_the_others_alone() -> None:
         (("states", 1, ["tegotae"]), "study 'states' takes no controllers"),
         (("mi", 1, None, {"mi": []}), "no mi is given"),
         (("mi", 1, None, {"mi": ["fast"]}), "mi = fast: not a number"),
-        (("mi", 1, None, {"mi": [9.0]}), "mi = 9.0 is not in"),
+        (("mi", 1, None, {"mi": [9.0]}), "mi: 9.0 is not in"),
         (("mi", 1, None, {"rate": [5.0]}), "rate is no axis of 'mi'; allowed: mi"),
         (("damage", 1, None, {"mi": [5.0]}), "mi is no axis of 'damage'; allowed: none"),
         (("conditions", 1, None, {"condition": ["C9"]}), "condition 'C9' is not one of C1, "),

@@ -10,46 +10,41 @@ from typing import Any, TypeAlias, TypeVar
 
 Value = TypeVar("Value")
 Steps: TypeAlias = tuple[tuple[float, Value], ...]
-Over: TypeAlias = Value | Steps[Value]
+Schedule: TypeAlias = Value | Steps[Value]
 """A value that holds all the time, or steps of it."""
 
 
-def steps_of(value: Over[Any]) -> Steps[Any]:
+def steps_of(value: Schedule[Any]) -> Steps[Any]:
     """The steps of a quantity; one from the start on if it is a single value."""
     if isinstance(value, tuple | list):
         return tuple((float(start), entry) for start, entry in value)
     return ((0.0, value),)
 
 
-def mapped(value: Over[Any], change: Callable[[Any], Any]) -> Over[Any]:
-    """The quantity with ``change`` done to each of its values."""
-    if not isinstance(value, tuple | list):
-        return change(value)
-    return tuple((start, change(entry)) for start, entry in steps_of(value))
-
-
-def check_steps(name: str, value: Over[Any], check: Callable[[str, Any], None]) -> None:
-    """Check the times of a quantity, and each of its values with ``check(name, value)``.
+def checked_schedule(value: Any, check: Callable[[Any], Value]) -> Schedule[Value]:
+    """The schedule with each of its values as ``check`` gives it.
 
     Raises:
-        ValueError: no step, a first one that is not at 0, or times that do not grow.
+        ValueError: steps that are no pairs, no step, a first one that is not at 0, or times that do
+            not grow; or as ``check``.
     """
+    if not isinstance(value, tuple | list):
+        return check(value)
     try:
         steps = steps_of(value)
     except (TypeError, ValueError):
-        raise ValueError(f"{name} = {value} is not ((start, value), ...)") from None
+        raise ValueError(f"{value} is not ((start, value), ...)") from None
     times = [start for start, _ in steps]
     grows = all(a < b for a, b in itertools.pairwise(times))
     if not times or times[0] != 0.0 or not grows or not math.isfinite(times[-1]):
-        raise ValueError(f"steps of {name} start at {times} s; allowed: 0, then growing times")
-    for _, entry in steps:
-        check(name, entry)
+        raise ValueError(f"steps start at {times} s; allowed: 0, then growing times")
+    return tuple((start, check(entry)) for start, entry in steps)
 
 
-class Course:
+class ScheduleLookup:
     """Steps, asked for tick by tick."""
 
-    def __init__(self, value: Over[Any]) -> None:
+    def __init__(self, value: Schedule[Any]) -> None:
         steps = steps_of(value)
         self._starts = [start for start, _ in steps]
         self._values = [entry for _, entry in steps]
@@ -59,7 +54,7 @@ class Course:
         return self._values[bisect_right(self._starts, t) - 1]
 
 
-def parse_steps(name: str, text: str, convert: Callable[[str], Value]) -> Over[Value]:
+def parse_schedule(name: str, text: str, convert: Callable[[str], Value]) -> Schedule[Value]:
     """``"0.1"`` -> 0.1; ``"0:0.15,25:0.4"`` -> ((0, 0.15), (25, 0.4)).
 
     Raises:
@@ -82,8 +77,8 @@ def _text(value: Any) -> str:
     return str(value).removesuffix(".0") if isinstance(value, float) else str(value)
 
 
-def steps_text(value: Over[Any], text: Callable[[Any], str] = _text) -> str:
-    """The text that :func:`parse_steps` takes, exact; ``text`` words one value."""
+def schedule_text(value: Schedule[Any], text: Callable[[Any], str] = _text) -> str:
+    """The text that :func:`parse_schedule` takes, exact; ``text`` words one value."""
     if not isinstance(value, tuple | list):
         return text(value)
     return ",".join(f"{_text(start)}:{text(entry)}" for start, entry in steps_of(value))
