@@ -1,4 +1,4 @@
-"""What the paper says, and the rules by which results of trials agree with it or not."""
+"""Claims of the paper, and the rules that turn results into a verdict on each."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ YES, PARTLY, NO = "reproduced", "partly", "not"
 FEW, NOT_RUN = "no verdict", "not run"
 
 MIN_SEEDS: Final = 5
-"""Fewer seeds, or numbers on a side of a comparison, give figures, but no verdict."""
+"""Smallest number of seeds, and of numbers on each side of a comparison, for a verdict."""
 
 SIGNIFICANT: Final = 0.05
-"""Largest p of a difference that counts."""
+"""Largest p of a difference that is significant."""
 
 
 class Finding(NamedTuple):
-    """What a claim came to: the figures and the verdict."""
+    """The figures that a claim was held against, as text, and the verdict."""
 
     measured: str
     verdict: str
@@ -44,13 +44,18 @@ class Finding(NamedTuple):
 
 Rule = Callable[[Sequence[Result]], Finding]
 Pairs = Sequence[tuple[str, str]]
-"""Labels of the controllers that are compared: the one that should win, and the other."""
+"""Pairs of labels of controllers: the one that should be faster, and the other."""
 
 
 class Claim(NamedTuple):
-    """A claim of the paper: where, what it says, its rule, the controllers and seeds that it needs.
+    """A claim of the paper.
 
-    ``{gait}`` in its text stands for the name of the gait that is expected of the robot.
+    Args:
+        section: section or figure of the paper.
+        text: the claim. ``{gait}`` stands for the gait that is expected of the robot.
+        rule: function from results to figures and verdict.
+        controllers: labels of the controllers that the rule needs.
+        seeds: smallest number of seeds of each for a verdict.
     """
 
     section: str
@@ -61,14 +66,15 @@ class Claim(NamedTuple):
 
 
 def verdict(full: bool, part: bool) -> str:
-    """Reproduced if it holds fully, else partly, else not."""
+    """Reproduced if ``full``, otherwise partly if ``part``, otherwise not."""
     return YES if full else PARTLY if part else NO
 
 
 def of_all(verdicts: Sequence[str]) -> str:
-    """A verdict on what is said of several: reproduced if it is for each of them.
+    """Verdict on a claim about several controllers, from the verdicts on each.
 
-    Not reproduced if it is not for any, no verdict if there is none on any; else partly.
+    Reproduced if all are. No verdict if none has one. Not reproduced if none is, even partly.
+    Otherwise partly.
     """
     if YES not in verdicts and PARTLY not in verdicts:
         return NO if NO in verdicts else FEW
@@ -81,10 +87,11 @@ def of_decided(verdicts: Sequence[str]) -> str:
 
 
 def of_criteria(strict: str, authors: str) -> str:
-    """The verdict of the strict criterion, but 'partly' if the authors' one differs.
+    """Verdict from those by the strict and by the authors' criterion.
 
-    Without a verdict by the strict one no claim is reproduced, and without one by the authors'
-    there is no difference.
+    It is the strict one, or partly if the authors' differs. A missing verdict by the authors'
+    criterion counts as equal. Without a verdict by the strict criterion the claim is partly
+    reproduced at most.
     """
     if authors in (strict, FEW):
         return strict
@@ -92,7 +99,7 @@ def of_criteria(strict: str, authors: str) -> str:
 
 
 def both_criteria(check: Callable[[Sequence[Result], str], Finding]) -> Rule:
-    """A check by both criteria: the strict one decides, a difference makes it 'partly'."""
+    """Rule that checks by both criteria and combines the verdicts as ``of_criteria`` does."""
 
     def rule(results: Sequence[Result]) -> Finding:
         strict, authors = check(results, STRICT), check(results, AUTHORS)
@@ -103,7 +110,7 @@ def both_criteria(check: Callable[[Sequence[Result], str], Finding]) -> Rule:
 
 
 def each_of(labels: Sequence[str], check: Callable[[str], Finding]) -> Finding:
-    """A check of every controller alone; reproduced if it is for each."""
+    """Check every controller alone and combine the verdicts as ``of_all`` does."""
     found = [check(label) for label in labels]
     texts = (
         f"{named_controller(label).name}: {f.measured}"
@@ -128,11 +135,20 @@ def faster(pairs: Pairs, axis: str) -> Rule:
 def compare_times(
     results: Sequence[Result], column: str, fast: str, slow: str, axis: str
 ) -> Finding:
-    """In every cell along an axis the median time of one controller is below that of the other.
+    """Whether one controller has a shorter median time than another in every cell along an axis.
 
-    More than half of the cells are 'partly'. A cell in which only the first forms the gait is
-    won, one in which it does not is lost. Over all cells the difference is significant, else it is
-    'not'. No verdict if the other hardly ever forms it; 'not' if only the first does not.
+    Reproduced if it is faster in every cell, partly if in more than half of them. Over all cells
+    the difference must be significant, with ``MIN_SEEDS`` times and more of the first controller.
+    Otherwise the claim is not reproduced. A cell in which only
+    the first controller forms the gait counts as faster; one in which it does not form the gait
+    counts as slower. No verdict if the other controller has fewer than ``MIN_SEEDS`` times.
+
+    Args:
+        results: of both controllers.
+        column: time to the gait, by the criterion that decides.
+        fast: label of the controller that should be faster.
+        slow: label of the other.
+        axis: of the grid.
     """
     own, other = matching(results, controller=fast), matching(results, controller=slow)
     cells = sorted({result[axis] for result in own} & {result[axis] for result in other})
@@ -157,7 +173,7 @@ def _won(own: Sequence[Result], other: Sequence[Result], column: str, cell: Resu
 
 
 def always(controller: str) -> Rule:
-    """Every trial of a controller forms the gait; nine of ten are 'partly'."""
+    """Every trial of a controller forms the gait. Nine of ten is partly."""
 
     def check(results: Sequence[Result], column: str) -> Finding:
         hits = rate(successes(results, column, controller=controller))
@@ -169,7 +185,15 @@ def always(controller: str) -> Rule:
 def ranks(
     results: Sequence[Result], column: str, axis: str, sign: int, labels: Sequence[str]
 ) -> Finding:
-    """A column grows (sign 1) or falls (-1) along an axis in each controller, by its ranks."""
+    """Whether a column rises (sign 1) or falls (-1) along an axis, by rank correlation.
+
+    Args:
+        results: of the controllers.
+        column: the figure.
+        axis: of the grid.
+        sign: 1 or -1.
+        labels: of the controllers, each checked alone.
+    """
 
     def check(label: str) -> Finding:
         own = matching(results, controller=label)
@@ -185,17 +209,17 @@ def ranks(
 
 
 def trend(column: str, axis: str, sign: int, labels: Sequence[str] = ("apnc",)) -> Rule:
-    """A column grows or falls along an axis, see ``ranks``."""
+    """Rule for a column that rises or falls along an axis, see ``ranks``."""
     return lambda results: ranks(results, column, axis, sign, labels)
 
 
 def time_trend(axis: str, sign: int, labels: Sequence[str]) -> Rule:
-    """The time to the gait grows or falls along an axis, by both criteria."""
+    """Rule for a time to the gait that rises or falls along an axis, by both criteria."""
     return both_criteria(lambda results, column: ranks(results, column, axis, sign, labels))
 
 
 def findings(results: Sequence[Result], claims: Sequence[Claim]) -> list[tuple[Claim, Finding]]:
-    """Every claim and what it came to on these results."""
+    """Every claim with its finding on these results."""
     gait = gait_in(results)
     return [(c._replace(text=c.text.format(gait=gait)), _finding(results, c)) for c in claims]
 

@@ -1,4 +1,4 @@
-"""Intervals of a run, marked in figures over time."""
+"""Marks intervals of a run in a figure over time."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from apnc.report.figure import Figure
 from apnc_core.types import Array
 
 Interval = tuple[float, float, str]
-"""Begin and end [s], and label."""
+"""Start [s], end [s] and label."""
 
 
 def marked(figure: Figure, time: Array, intervals: Sequence[Interval]) -> Figure:
     """A figure over time with a label above each interval and a band behind every other one.
 
     Args:
-        figure: over time; its page has no time vector afterwards to draw it over.
-        time: of the lines that have none of their own [s].
-        intervals: in order; the time axis ends with the last.
+        figure: figure over time. The result holds its own times in each line.
+        time: times [s] for the lines that have none.
+        intervals: intervals in order. The time axis ends with the last.
     """
     layout = figure.layout
     margin = layout["margin"] | {"t": layout["margin"]["t"] + 30}

@@ -1,4 +1,4 @@
-"""Where results come from: the processor and the commit."""
+"""Origin of results: processor and commit."""
 
 from __future__ import annotations
 
@@ -19,7 +19,10 @@ def processor() -> str:
 
 
 def commit() -> str:
-    """Commit of the code that runs, "-dirty" if it was changed since; "unknown" if installed."""
+    """Commit of the code that runs, with "-dirty" after it if files were changed since.
+
+    "unknown" for code that is not in a checkout.
+    """
     folder = Path(__file__).resolve().parent
     command = ["git", "-C", str(folder), "describe", "--always", "--dirty", "--abbrev=12"]
     try:

@@ -1,4 +1,4 @@
-"""Plots of results: boxes or points per cell and controller, and marks of success."""
+"""Plots of results over an axis of the grid: boxes or points, and shares of success."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ LOOKS: Final[Mapping[str, Look]] = {
 """By label of the controller."""
 
 MIN_BOX: Final = 5
-"""Fewer values than this are shown one by one, without quartiles."""
+"""Smallest number of values for a box. Fewer are drawn as points."""
 
 CRITERIA: Final = {
     STRICT: "strict criterion: within 0.6 rad of the gait, to the end",
@@ -53,7 +53,7 @@ COLOURS: Final = (theme.BLUE, theme.ORANGE, theme.GREEN, theme.PURPLE, theme.VER
 
 
 def counted(results: Sequence[Result], column: str, controller: str) -> str:
-    """Name of a controller, with the number of its runs that have a figure."""
+    """Name of a controller and the number of its runs that have a figure."""
     runs = matching(results, controller=controller)
     return (
         f"{named_controller(controller).name}, n = {of_runs(len(values(runs, column)), len(runs))}"
@@ -63,7 +63,7 @@ def counted(results: Sequence[Result], column: str, controller: str) -> str:
 def spread(
     points: Sequence[tuple[str, float]], name: str, colour: str, symbol: str = "circle"
 ) -> list[Trace]:
-    """Traces of numbers by category: a box for five and more, the points themselves for fewer."""
+    """Traces of numbers by category: a box for ``MIN_BOX`` numbers and more, otherwise points."""
     count = {category: sum(c == category for c, _ in points) for category, _ in points}
     box = {"type": "box", "marker": {"color": colour, "size": 4}, "line": {"width": 1.2}}
     mark = {"color": colour, "size": 7, "symbol": symbol}
@@ -81,7 +81,15 @@ def spread(
 def over_axis(
     results: Sequence[Result], axis: tuple[str, str], column: str, label: str, note: str = ""
 ) -> Figure:
-    """A column over an axis (its name and title), per controller."""
+    """Figure of a column over an axis, one trace per controller.
+
+    Args:
+        results: of at least one trial.
+        axis: name of the axis, and its title.
+        column: the figure of the results.
+        label: title of the vertical axis.
+        note: text below the title.
+    """
     traces = []
     for controller in controllers_in(results):
         points = [
@@ -111,7 +119,7 @@ def _figure(
 
 
 def convergence(results: Sequence[Result], axis: tuple[str, str]) -> list[Figure]:
-    """By each criterion: times of the trials that converged, and above them their share."""
+    """A figure per criterion: times of the trials that converged, and above them their share."""
     return [_convergence(results, axis, column) for column in CRITERIA]
 
 
@@ -149,7 +157,16 @@ def side_by_side(
     groups: Mapping[str, Sequence[float]],
     colours: Sequence[str] = COLOURS,
 ) -> Figure:
-    """Groups of numbers beside each other, each with its own colour."""
+    """Figure of groups of numbers beside each other.
+
+    Args:
+        key: of the figure.
+        title: of the figure.
+        note: text below the title.
+        unit: title of the vertical axis.
+        groups: numbers by name of the group.
+        colours: of the groups, repeated if there are more groups.
+    """
     traces = [
         trace | {"showlegend": False}
         for at, (name, numbers) in enumerate(groups.items())

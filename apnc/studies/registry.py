@@ -1,4 +1,4 @@
-"""Which studies there are; nothing heavy is imported before a study is loaded."""
+"""The studies of the product. A study is imported when it is loaded, not here."""
 
 from __future__ import annotations
 
@@ -6,25 +6,24 @@ from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 ALL: Final = "all"
-"""The name that means every experiment of the paper."""
+"""Name that stands for all studies of the paper."""
 
 CONTROLLERS_OPTION: Final = "controllers"
-"""The option of studies that compare controllers."""
+"""Option of studies that compare controllers."""
 
 ROBOT: Final = "robot"
-"""The option of studies that any robot can walk."""
+"""Option of studies that any robot can walk."""
 
 
 class Entry(NamedTuple):
-    """A study before it is loaded.
+    """An entry of the registry: a study before it is loaded.
 
     Args:
-        name: of the study and of its module in the package, which holds it as ``STUDY``.
-        title: of its report.
-        section: of the paper, or its figures; empty for a study of the model itself.
-        options: what may be chosen besides the number of trials: controllers, the robot, or axes of
-            the grid.
-        package: that holds the module.
+        name: name of the study and of its module. The module holds the study as ``STUDY``.
+        title: title of its report.
+        section: section or figures of the paper. Empty for a study of the model itself.
+        options: options besides those of all studies: controllers, robot, or axes of the grid.
+        package: package of the module.
     """
 
     name: str
@@ -55,7 +54,7 @@ STUDIES: Final[Registry] = {
 
 
 def names_of(name: str, studies: Registry = STUDIES) -> list[str]:
-    """The studies that a name means.
+    """Names of the studies that a name stands for.
 
     Raises:
         ValueError: an unknown name.

@@ -1,4 +1,4 @@
-"""What a study leaves in its folder: table, report, claims, and Markdown tables."""
+"""The files of a study besides its results: CSV table, HTML report, claims, Markdown tables."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ TABLE_FILE: Final = "trials.csv"
 
 
 class Part(NamedTuple):
-    """What the report shows of one study."""
+    """Contents of the report for one study."""
 
     study: Study
     facts: list[tuple[str, str]]
@@ -36,13 +36,13 @@ class Part(NamedTuple):
 def files_of(
     grid: Sequence[Trial], results: Sequence[Result], wall_s: float, *, scenes: bool
 ) -> dict[str, Write]:
-    """What writes each file of a study's folder, by its name.
+    """Functions that write the files of a study, by name of the file.
 
     Args:
-        grid: trials asked for.
-        results: of those that were run.
-        wall_s: wall time that the results took [s].
-        scenes: run single experiments again to show them over time.
+        grid: trials of the study.
+        results: results of those that were run.
+        wall_s: wall time of these trials [s].
+        scenes: run single experiments and draw them over time.
     """
     parts = [
         part_of(load(entry), [trial for trial in grid if trial.entry == entry], own, scenes)
@@ -71,7 +71,14 @@ def files_of(
 
 
 def part_of(study: Study, grid: Sequence[Trial], results: Sequence[Result], scenes: bool) -> Part:
-    """What the report shows of the results of one study."""
+    """Contents of the report for one study.
+
+    Args:
+        study: the study.
+        grid: its trials.
+        results: results of those that were run.
+        scenes: run single experiments and draw them over time.
+    """
     commands = {trial.id: trial.experiment.command() for trial in grid}
     failed = [
         (result["error"] or result["end"], commands[id_of(result)])
@@ -86,7 +93,7 @@ def part_of(study: Study, grid: Sequence[Trial], results: Sequence[Result], scen
 
 
 def _asked(study: Study, grid: Sequence[Trial], results: Sequence[Result]) -> list[tuple[str, str]]:
-    """Robot, duration, controllers and seeds, and what was asked for and not run."""
+    """Facts of a study: robot, duration, controllers, seeds, and controllers that were not run."""
     run = controllers_in(results)
     controllers = "; ".join(_told(study, controller) for controller in run)
     if missing := [
@@ -111,7 +118,7 @@ def _asked(study: Study, grid: Sequence[Trial], results: Sequence[Result]) -> li
 
 
 def _told(study: Study, label: str) -> str:
-    """Name of a controller and its settings."""
+    """Name of a controller and its settings in a study."""
     used = named_controller(label)
     return " ".join([used.name, *(f"{k}={v:g}" for k, v in used.settings_in(study.name).items())])
 
@@ -130,7 +137,7 @@ def _facts(
 
 
 def claims_markdown(parts: Sequence[Part], facts: Sequence[tuple[str, str]]) -> str:
-    """The claims as a Markdown table."""
+    """Claims with their verdicts as a Markdown table, below the facts."""
     head = "".join(f"- {name}: {text}\n" for name, text in facts)
     return f"{head}\n" + markdown(
         {
@@ -145,7 +152,7 @@ def claims_markdown(parts: Sequence[Part], facts: Sequence[tuple[str, str]]) -> 
 
 
 def write_table(results: Sequence[Result], path: Path) -> None:
-    """Write results as one tidy CSV with a column for every entry that any of them has."""
+    """Write results as CSV, with a column for every entry that any of them has."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns_of(results), restval="", lineterminator="\n")
         writer.writeheader()

@@ -1,4 +1,4 @@
-"""Robots with a number changed."""
+"""Copies of a robot with some numbers changed."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ Part = TypeVar("Part")
 
 
 def changed(robot: Part, path: str, change: Callable[[Any], Any]) -> Part:
-    """A robot, or a part of it, with one field changed.
+    """A copy of a robot, or of a part of it, with one field changed.
 
     Args:
-        robot: a dataclass.
-        path: of the field, such as ``trunk.com``.
-        change: makes the new value of the present one.
+        robot: robot or part, a dataclass.
+        path: names of the parts and of the field, such as ``trunk.com``.
+        change: function from the present value to the new one.
     """
     name, _, rest = path.partition(".")
     present = getattr(robot, name)
@@ -32,5 +32,5 @@ def symmetric(robot: RobotDescription) -> RobotDescription:
 
 
 def constant(value: Any) -> Callable[[Any], Any]:
-    """The change of any value into this one."""
+    """A change that ignores the present value and gives this one."""
     return lambda _: value

@@ -11,7 +11,7 @@ from typing import Any, Final
 import apnc_core
 from apnc.loop.csv_file import write_csv
 from apnc.loop.engines import COMPILED
-from apnc.loop.many import walk_many
+from apnc.loop.many import Stop, walk_many
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.report.folder import write_together
@@ -19,12 +19,12 @@ from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry
 from apnc.studies.report import files_of
 from apnc.studies.results import PHASE, Result, StudyResults, id_of
 from apnc.studies.store import Store
-from apnc.studies.study import Chosen, Trial, load
+from apnc.studies.study import Axes, Trial, load
 from apnc.studies.workers import pool, results_of
 from apnc.summary import summarise
 from build_fmu.build import host_fmu
 
-Progress = Callable[[int, int, float, float], None]
+StudyProgress = Callable[[int, int, float, float], None]
 """Called with trials done, all trials, simulated time done [s] and simulated time of all [s]."""
 
 RESULTS_FILE: Final = "trials.jsonl"
@@ -46,10 +46,10 @@ def run_study(
     resume: bool = False,
     series: bool = False,
     duration: float | None = None,
-    chosen: Chosen | None = None,
+    chosen: Axes | None = None,
     robot: str | None = None,
-    progress: Progress = lambda done, total, simulated, total_s: None,
-    stop: Callable[[], bool] = lambda: False,
+    progress: StudyProgress = lambda done, total, simulated, total_s: None,
+    stop: Stop = lambda: False,
     studies: Registry = STUDIES,
 ) -> StudyResults:
     """Run a study, or all studies of the paper, and write results, report and claims.
@@ -120,7 +120,7 @@ def grid_of(
     name: str,
     trials: int,
     controllers: Sequence[str] | None = None,
-    chosen: Chosen | None = None,
+    chosen: Axes | None = None,
     duration: float | None = None,
     robot: str | None = None,
     studies: Registry = STUDIES,
@@ -144,7 +144,7 @@ def run_trials(
     trials: Sequence[Trial],
     *,
     workers: int = 1,
-    stop: Callable[[], bool] = lambda: False,
+    stop: Stop = lambda: False,
     series: Path | None = None,
 ) -> Iterator[Result]:
     """Run trials and give their results as they finish.

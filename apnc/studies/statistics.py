@@ -1,4 +1,4 @@
-"""Intervals and tests on numbers of trials."""
+"""Confidence intervals and tests for the figures of trials."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Rate(NamedTuple):
 
     @property
     def value(self) -> float:
-        """Share of successes; nan without a trial."""
+        """Share of successes. NaN without a trial."""
         return self.successes / self.trials if self.trials else float("nan")
 
     def __str__(self) -> str:
@@ -38,12 +38,12 @@ def rate(outcomes: Sequence[bool]) -> Rate:
 
 
 def of_runs(size: int, runs: int) -> str:
-    """How many of the runs have a figure: their number if all do."""
+    """Number of runs that have a figure, with "of ..." if not all have it."""
     return str(size) if size == runs else f"{size} of {runs}"
 
 
 class Median(NamedTuple):
-    """A median with its bootstrap 95 % interval, all nan without a value."""
+    """A median with its bootstrap 95 % interval. All are NaN without a value."""
 
     value: float
     low: float
@@ -51,12 +51,12 @@ class Median(NamedTuple):
     size: int
 
     def text(self, digits: int = 2, unit: str = "", runs: int | None = None) -> str:
-        """Value and interval, or a dash if there is nothing to take it of.
+        """Median and interval as text, or a dash without a value.
 
         Args:
-            digits: after the point.
-            unit: put behind.
-            runs: of which those with a number are told.
+            digits: digits after the point.
+            unit: unit to append.
+            runs: number of runs. If given, the number of those with a value is appended.
         """
         n = "" if runs is None else f", n = {of_runs(self.size, runs)}"
         if self.size == 0:
@@ -66,7 +66,7 @@ class Median(NamedTuple):
 
 
 def median(values: Sequence[float]) -> Median:
-    """Median of ``values`` with a percentile-bootstrap interval of fixed seed."""
+    """Median of ``values`` with a percentile bootstrap interval. The seed is fixed."""
     sample = np.asarray(values, dtype=np.float64)
     if sample.size == 0:
         return Median(float("nan"), float("nan"), float("nan"), 0)
@@ -85,7 +85,7 @@ def median(values: Sequence[float]) -> Median:
 
 
 class Comparison(NamedTuple):
-    """p and size of an effect, between -1 and 1."""
+    """p of a test, and size of the effect between -1 and 1."""
 
     p: float
     effect: float
@@ -97,7 +97,7 @@ def p_text(p: float) -> str:
 
 
 def rank_correlation(x: Sequence[float], y: Sequence[float]) -> Comparison | None:
-    """Spearman's rho of pairs; None with fewer than three, or if x or y are all equal."""
+    """Spearman's rho. None with fewer than three pairs, or if all x or all y are equal."""
     if len(x) < 3 or len(set(x)) < 2 or len(set(y)) < 2:
         return None
     test = stats.spearmanr(x, y)
@@ -105,7 +105,7 @@ def rank_correlation(x: Sequence[float], y: Sequence[float]) -> Comparison | Non
 
 
 def compare(a: Sequence[float], b: Sequence[float]) -> Comparison:
-    """Two-sided Mann-Whitney U test; p = 1 if either is empty or all are equal.
+    """Two-sided Mann-Whitney U test. p is 1 if a or b is empty, or if all numbers are equal.
 
     The effect is the rank-biserial correlation: 1 if every a exceeds every b, -1 if none does.
     """
@@ -116,7 +116,7 @@ def compare(a: Sequence[float], b: Sequence[float]) -> Comparison:
 
 
 def compare_rates(a: Rate, b: Rate) -> Comparison:
-    """Fisher's exact test; the effect is by how much the share of b exceeds that of a."""
+    """Fisher's exact test. The effect is the share of b minus that of a."""
     if not a.trials or not b.trials:
         return Comparison(1.0, 0.0)
     table = [[r.successes, r.trials - r.successes] for r in (a, b)]
@@ -124,9 +124,9 @@ def compare_rates(a: Rate, b: Rate) -> Comparison:
 
 
 def compare_spread(a: Sequence[float], b: Sequence[float]) -> Comparison:
-    """Brown and Forsythe's test of equal spread, for two values each and more.
+    """Brown and Forsythe's test of equal spread. a and b need two values each.
 
-    The effect is the share by which the standard deviation of b exceeds that of a, of both.
+    The effect is (s_b - s_a) / (s_b + s_a), with s the standard deviation.
     """
     spreads = float(np.std(a)), float(np.std(b))
     if sum(spreads) == 0.0:
@@ -136,7 +136,7 @@ def compare_spread(a: Sequence[float], b: Sequence[float]) -> Comparison:
 
 
 def holm(tests: Sequence[Comparison]) -> list[Comparison]:
-    """The same tests with p corrected by Holm's step-down procedure."""
+    """The tests with p corrected by Holm's step-down procedure."""
     corrected = [test.p for test in tests]
     floor = 0.0
     for rank, i in enumerate(sorted(range(len(tests)), key=lambda i: tests[i].p)):

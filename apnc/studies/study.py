@@ -1,4 +1,4 @@
-"""A study: a grid of experiments, what is measured of a record, claims and figures."""
+"""A study: its grid of experiments, the figures it takes of a record, its claims and pictures."""
 
 from __future__ import annotations
 
@@ -23,28 +23,29 @@ from apnc.studies.results import Result, TrialId
 from apnc_core.in_python import in_python
 from apnc_plant.robot import RobotDescription
 
-Value = str | float | int
-Chosen = Mapping[str, Sequence[Value]]
-"""Values along axes of a grid, by name of the axis."""
+AxisValue = str | float | int
+Axes = Mapping[str, Sequence[AxisValue]]
+"""Values along the axes of a grid, by name of the axis."""
 
 Robot = str | RobotDescription
 
-Seeds = Callable[[Mapping[str, Value], int], int]
+Seeds = Callable[[Mapping[str, AxisValue], int], int]
+"""Number of seeds to run in a cell, of the cell and the number of seeds that was asked for."""
 
 WALK_MI: Final = 0.08
 """MI of the walks of sections 3.1.2 to 3.1.4."""
 
 SCHEDULE_MI: Final = 0.15
-"""MI of the walks with a damaged leg, through the states S1 to S3, and along the courses."""
+"""MI of the walks with a damaged leg and through the states S1 to S3, and first MI of schedules."""
 
 WALK_S: Final = 45.0
 """Length of a walk in section 3.1 [s]."""
 
 
-def fewer_of_others(**at: Sequence[Value]) -> Seeds:
-    """All seeds of APNC; half of them of the others, and those only at some values of an axis."""
+def fewer_of_others(**at: Sequence[AxisValue]) -> Seeds:
+    """All seeds for APNC. The other controllers run half of them, at these values only."""
 
-    def seeds(cell: Mapping[str, Value], trials: int) -> int:
+    def seeds(cell: Mapping[str, AxisValue], trials: int) -> int:
         if cell["controller"] == "apnc":
             return trials
         there = all(cell[axis] in values for axis, values in at.items())
@@ -55,7 +56,7 @@ def fewer_of_others(**at: Sequence[Value]) -> Seeds:
 
 @dataclass(frozen=True)
 class Trial:
-    """One experiment of a study, and where it stands in the grid."""
+    """One experiment of a study and its cell in the grid."""
 
     entry: Entry
     cell: Mapping[str, Any]
@@ -83,25 +84,26 @@ class Study:
     """A study.
 
     Args:
-        entry: of the registry.
-        experiment: makes one of the label of a controller, the seed, a value per axis and the robot
-            if one is asked for, given by name; what it sets goes before what the controller has for
-            this study.
+        entry: its entry in the registry.
+        experiment: function that makes the experiment of a cell. Its keyword arguments are
+            ``controller`` (a label), ``seed``, one per axis, and ``robot`` if one was asked for.
+            Settings that it makes override those that the controller has for this study.
         axes: values along each axis of the grid, by name.
-        controllers: labels of the controllers that are run.
-        seeds: how many of the seeds asked for a cell (its label and values) gets, 0 for none; a
-            grid along chosen values has all.
-        measure: figures of a record that its summary does not have, ``None`` where undefined.
-        claims: what the paper says of it.
-        figures: made of the results, of which there is at least one.
-        scenes: figures of single runs of a robot, run for them when the results are there.
-        table: the results as a Markdown table.
-        engine: what the robots walk in; None: its experiments say.
+        controllers: labels of the controllers to run.
+        seeds: number of seeds to run in a cell; 0 skips it. Cells at values that the user chose
+            run all seeds.
+        measure: figures of a record that its summary does not have. None stands for undefined.
+        claims: claims of the paper, or aims, that the results are held against.
+        figures: function that draws the results. There is at least one result.
+        scenes: function that runs a robot once or twice and draws these runs over time. It is
+            called when all results are there.
+        table: function that makes a Markdown table of the results. None makes no table.
+        engine: engine of all trials. None leaves it to the experiments.
     """
 
     entry: Entry
     experiment: Callable[..., Experiment]
-    axes: Chosen = field(default_factory=dict)
+    axes: Axes = field(default_factory=dict)
     controllers: tuple[str, ...] = ALL
     seeds: Seeds = lambda cell, trials: trials
     measure: Callable[[Record], Result] = lambda record: {}
@@ -113,18 +115,21 @@ class Study:
 
     @property
     def name(self) -> str:
-        """As in the registry."""
+        """Name in the registry."""
         return self.entry.name
 
     def grid(
         self,
         trials: int,
         controllers: Sequence[str] | None = None,
-        chosen: Chosen | None = None,
+        chosen: Axes | None = None,
         duration: float | None = None,
         robot: str | None = None,
     ) -> list[Trial]:
-        """Every value of every axis, its seeds, every controller; see ``run_study``."""
+        """The trials: every value of every axis, with its seeds and controllers.
+
+        Arguments and errors are those of ``run_study``.
+        """
         trials, duration, robot = in_python(trials), in_python(duration), in_python(robot)
         controllers = in_python(controllers)
         chosen = {axis: in_python(values) for axis, values in (chosen or {}).items()}
@@ -153,7 +158,7 @@ class Study:
             if chosen or seed < self.seeds({"controller": controller, **cell}, trials)
         ]
 
-    def _values(self, axis: str, chosen: Sequence[Value] | None) -> list[Value]:
+    def _values(self, axis: str, chosen: Sequence[AxisValue] | None) -> list[AxisValue]:
         known = self.axes[axis]
         if chosen is None:
             return list(known)
@@ -170,7 +175,9 @@ class Study:
                 raise ValueError(f"{axis} '{value}' is not one of {', '.join(map(str, known))}")
         return list(dict.fromkeys(values))
 
-    def _trial(self, cell: dict[str, Value], duration: float | None, robot: str | None) -> Trial:
+    def _trial(
+        self, cell: dict[str, AxisValue], duration: float | None, robot: str | None
+    ) -> Trial:
         used = named_controller(str(cell["controller"]))
         own = {} if robot is None else {"robot": robot}
         experiment = self.experiment(**cell | own)
@@ -178,13 +185,17 @@ class Study:
         length = experiment.duration if duration is None else duration
         engine = self.engine or experiment.engine
         experiment = replace(experiment, settings=settings, duration=length, engine=engine)
-        mi = experiment.mi if isinstance(experiment.mi, int | float) else schedule_text(experiment.mi)
+        mi = (
+            experiment.mi
+            if isinstance(experiment.mi, int | float)
+            else schedule_text(experiment.mi)
+        )
         first = {"controller": cell["controller"], "mi": mi, "seed": cell["seed"]}
         whole = {**first, "duration": experiment.duration, **cell, **own}
         return Trial(self.entry, whole, experiment)
 
 
 def load(entry: Entry) -> Study:
-    """A study of a registry, ready to run."""
+    """Import the study of an entry."""
     study: Study = importlib.import_module(f"{entry.package}.{entry.name}").STUDY
     return study

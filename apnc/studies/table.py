@@ -1,4 +1,4 @@
-"""Markdown tables of results."""
+"""Markdown tables and their cells."""
 
 from __future__ import annotations
 
@@ -8,7 +8,11 @@ import numpy as np
 
 
 def markdown(lines: Iterable[Mapping[str, str]]) -> str:
-    """A table of lines, entries by title of the column."""
+    """A Markdown table.
+
+    Args:
+        lines: texts of each line by title of the column. All lines have the same titles.
+    """
     listed = list(lines)
     titles = list(listed[0]) if listed else []
     body = [list(entries.values()) for entries in listed]
@@ -17,7 +21,7 @@ def markdown(lines: Iterable[Mapping[str, str]]) -> str:
 
 
 def middle(numbers: Sequence[float], digits: int) -> str:
-    """Median, smallest and largest, or a dash."""
+    """Median, with smallest and largest number in brackets; a dash if there is no number."""
     if not numbers:
         return "-"
     low, value, high = (f"{v:.{digits}f}" for v in np.percentile(numbers, [0, 50, 100]))

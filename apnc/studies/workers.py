@@ -1,4 +1,4 @@
-"""Where trials run: in threads of this process, in processes of this machine, on a Dask cluster."""
+"""Runs trials in threads of this process, in processes of this machine, or on a Dask cluster."""
 
 from __future__ import annotations
 
@@ -13,37 +13,39 @@ from typing import Any, Final, Protocol
 
 from apnc.loop.batch import Lanes, lanes_of
 from apnc.loop.engines import COMPILED
+from apnc.loop.many import Stop
 from apnc.studies.results import Result
 from apnc.studies.study import Trial
 
 CHUNK: Final = 32
-"""Trials of the robot in C that a task on a cluster walks: some batches, done in a second."""
+"""Number of trials in C in one task of a cluster. They take about a second."""
 
 _TO_STOP: Final = (signal.SIGINT, signal.SIGTERM)
-"""Signals on which this process ends the work, and not its workers, whom they reach as well."""
-
-Stop = Callable[[], bool]
+"""Signals that end a study. They also reach the worker processes, which ignore them."""
 
 
 class Walk(Protocol):
-    """Walks trials in this process; results as they finish, in any order."""
+    """Runs trials in this process and gives results as they finish, in any order."""
 
     def __call__(self, trials: Sequence[Trial], *, workers: int, stop: Stop) -> Iterator[Result]:
-        """Results of the trials; robots in C walk on so many threads."""
+        """Results of the trials, those in C on ``workers`` threads."""
 
 
 @contextmanager
 def pool(
     workers: int, scheduler: str | None, trials: Collection[Trial]
 ) -> Iterator[Executor | None]:
-    """Where trials run that do not run in this process, see ``run_study``; None if all do.
+    """Executor for the trials that run outside this process. None if all trials run inside.
+
+    Arguments are those of ``run_study``.
 
     Raises:
-        ValueError: fewer than one worker, an extra is missing, or no scheduler there.
+        ValueError: fewer than one worker, a missing extra, or no scheduler at the address.
     """
     if scheduler:
         with _client(scheduler) as client:
-            yield client.get_executor(retries=3, pure=False)  # a lost worker's trials run elsewhere
+            # trials of a lost worker run elsewhere
+            yield client.get_executor(retries=3, pure=False)
         return
     if workers < 1:
         raise ValueError(f"workers = {workers} is not at least 1")
@@ -60,7 +62,7 @@ def _processes(workers: int, engines: Sequence[str]) -> Any:
         raise ValueError(f"{needs}: {extra}") from None
     executor = get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
     with _interrupts_ignored():
-        executor.submit(int)  # starts the processes, which leave stopping to this one from then on
+        executor.submit(int)  # starts the processes, which ignore the signals from then on
     return executor
 
 
@@ -78,7 +80,7 @@ def _client(address: str) -> Any:
 
 @contextmanager
 def _interrupts_ignored() -> Iterator[None]:
-    """No signal to stop has effect in here, nor, until they say otherwise, in processes started."""
+    """Ignore the signals that stop, here and in processes that are started meanwhile."""
     if threading.current_thread() is not threading.main_thread():  # others may not set signals
         yield
         return
@@ -104,15 +106,15 @@ def results_of(
     cluster: bool,
     stop: Stop,
 ) -> Iterator[Result]:
-    """Results as they finish, in any order; once ``stop()`` is true, nothing further begins.
+    """Results as they finish, in any order. No trial begins after ``stop`` has returned True.
 
     Args:
-        trials: what is run.
-        walk: walks some of them; it goes to other processes as it is.
-        executor: of :func:`pool`.
-        workers: threads for the robots in C, then processes for the others.
-        cluster: everything goes to the executor, the robots in C in chunks.
-        stop: asked now and then.
+        trials: the trials to run.
+        walk: function that runs trials. It is sent to other processes.
+        executor: executor of :func:`pool`, or None.
+        workers: number of threads for trials in C, and of processes for the others.
+        cluster: send all trials to the executor, those in C in chunks.
+        stop: called now and then.
     """
     here, sent = trials, list[Trial]()
     if executor is not None:
@@ -129,7 +131,7 @@ def _in_c(trial: Trial) -> bool:
 
 
 def chunks_of(trials: Sequence[Trial]) -> list[list[Trial]]:
-    """Trials in groups that can walk side by side; of another engine each by itself."""
+    """Groups of trials that can walk side by side. A trial in another engine is its own group."""
     kinds: dict[Lanes, list[Trial]] = {}
     for trial in filter(_in_c, trials):
         kinds.setdefault(lanes_of(trial.experiment), []).append(trial)
@@ -164,5 +166,5 @@ def _sent(
             if not future.cancelled():
                 yield from future.result()
         if stop():
-            for future in running:  # of those that wait on a cluster
+            for future in running:  # those that wait on a cluster
                 future.cancel()

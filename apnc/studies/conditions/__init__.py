@@ -27,9 +27,14 @@ LESS_IS_BETTER: Final = ("cost_of_transport",)
 class Compared(NamedTuple):
     """APNC against a baseline in one metric and condition.
 
-    ``n``: runs of APNC and of the baseline that have the metric, in words; ``test``: p corrected
-    over all tests (Holm), None if either has it in fewer than five or in less than half of its
-    runs: a robot that stands has none, and those that are left are not a fair sample.
+    Args:
+        metric: name of the metric.
+        condition: name of the condition.
+        controller: label of the baseline.
+        n: numbers of runs of APNC and of the baseline that have the metric, as text.
+        test: test with p corrected over all tests (Holm). None if APNC or the baseline has the
+            metric in fewer than ``MIN_SEEDS`` runs or in less than half of them. A robot that
+            stands has none, and the runs that are left would be no fair sample.
     """
 
     metric: str
@@ -40,7 +45,7 @@ class Compared(NamedTuple):
 
     @property
     def differs(self) -> bool:
-        """Whether there is a significant difference."""
+        """Whether the difference is significant."""
         return self.test is not None and self.test.p <= SIGNIFICANT
 
     @property
@@ -51,7 +56,7 @@ class Compared(NamedTuple):
 
     @property
     def text(self) -> str:
-        """The comparison in words and figures."""
+        """The comparison as text."""
         words = f"{self.metric} against {named_controller(self.controller).name}"
         if self.test is None:
             return f"{words}: too few, n = {self.n}"
@@ -59,12 +64,12 @@ class Compared(NamedTuple):
 
 
 def experiment(condition: str, **fields: Any) -> Experiment:
-    """A walk of a robot in a condition of the paper."""
+    """A walk in a condition of the paper."""
     return Experiment(conditions=condition, mi=WALK_MI, duration=WALK_S, **fields)
 
 
 def comparisons(results: Sequence[Result]) -> list[Compared]:
-    """APNC against every baseline that was run."""
+    """Comparisons of APNC with every baseline that was run."""
     baselines = [controller for controller in controllers_in(results) if controller != "apnc"]
     cells = product(METRICS, cells_in(results, "condition"), baselines)
     found = [_compared(results, *cell) for cell in cells]
@@ -81,19 +86,19 @@ def _compared(results: Sequence[Result], metric: str, condition: str, baseline: 
 
 
 def alike_in(condition: str) -> Rule:
-    """No test in a condition finds a difference; half of them are 'partly'."""
+    """Rule: no test in a condition finds a difference. Half of them is partly."""
     return _in_condition(condition, lambda test: not test.differs, lambda share: share >= 0.5)
 
 
 def better_in(condition: str) -> Rule:
-    """Every test in a condition finds APNC better; more than half are 'partly'."""
+    """Rule: every test in a condition finds APNC better. More than half of them is partly."""
     return _in_condition(condition, lambda test: test.better, lambda share: share > 0.5)
 
 
 def _in_condition(
     condition: str, holds: Callable[[Compared], bool], enough: Callable[[float], bool]
 ) -> Rule:
-    """A claim on all tests of a condition; one that could not be made prevents 'reproduced'."""
+    """Rule on all tests of a condition. It is partly at most if a test could not be made."""
 
     def rule(results: Sequence[Result]) -> Finding:
         tests = [test for test in comparisons(results) if test.condition == condition]
@@ -108,7 +113,7 @@ def _in_condition(
 
 
 def figures(results: Sequence[Result]) -> list[Figure]:
-    """A metric each; the note says where APNC differs from a baseline."""
+    """A figure per metric. Its note lists where APNC differs from a baseline."""
     found, tests = [], [test for test in comparisons(results) if test.differs]
     for metric, label in METRICS.items():
         differs = [

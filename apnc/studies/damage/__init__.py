@@ -18,9 +18,9 @@ from apnc.studies.study import SCHEDULE_MI, WALK_S, Study, fewer_of_others
 
 
 def fastest(results: Sequence[Result]) -> Finding:
-    """APNC is significantly faster than every baseline (Holm); than some of them is 'partly'.
+    """APNC is significantly faster than every baseline (Holm). Than some of them is partly.
 
-    A baseline with fewer than five speeds does not count.
+    A baseline with fewer than ``MIN_SEEDS`` speeds does not count.
     """
     speeds = {label: values(results, SPEED, controller=label) for label in ALL}
     own, told = speeds["apnc"], [label for label in BASELINES if len(speeds[label]) >= MIN_SEEDS]
@@ -37,7 +37,7 @@ def fastest(results: Sequence[Result]) -> Finding:
 
 
 def figures(results: Sequence[Result]) -> list[Figure]:
-    """Speed of every controller."""
+    """Speeds of every controller."""
     labels = controllers_in(results)
     groups = {
         counted(results, SPEED, label): values(results, SPEED, controller=label) for label in labels

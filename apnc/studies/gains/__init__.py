@@ -1,7 +1,7 @@
-"""Section 4.1: how strong should the feedback be? From too weak to too strong, in each controller.
+"""Section 4.1: how strong should the feedback be? It is varied from too weak to too strong.
 
-It is also how the best setting of each baseline is chosen, see ``best_setting``: what is chosen
-stands in ``apnc.controllers``.
+The study also finds the best setting of each baseline, see ``best_setting``. The settings that it
+found are in ``apnc.controllers``.
 """
 
 from __future__ import annotations
@@ -50,13 +50,13 @@ GAINS: Final[Mapping[str, tuple[float, ...]]] = {
     "apnc": (0.01, 0.1, 0.3, 1.0, 3.0, 10.0),
     "apnc_printed": (1.0,),
 }
-"""Tegotae's gain, the threshold of the phase reset, a factor on the learning rates of APNC.
+"""Values by controller: gain of Tegotae, threshold of the phase reset, factor on rates of APNC.
 
-Rates end at their limit of 1; the printed ones are no factor of the robot's own.
+Learning rates are limited to 1. ``apnc_printed`` has the printed rates, so its factor is 1.
 """
 
 PARAMETERS: Final = {"tegotae": "gamma_tegotae", "phase_reset": "grf_reset"}
-"""What is varied of a baseline."""
+"""Parameter that is varied, by baseline."""
 
 TITLES: Final = {
     "tegotae": "gain of Tegotae [1]",
@@ -68,11 +68,11 @@ RATES: Final = ("B_f", "B_s")
 LATE_SPEED, STILL = "late_speed_m_per_s", "stopped_oscillators"
 
 LAST: Final = 3.0
-"""End of a walk over which an oscillator that does not move has stopped [s]."""
+"""Time at the end of a walk in which an oscillator must move, otherwise it has stopped [s]."""
 
 
 def experiment(controller: str, seed: int, mi: float, gain: float) -> Experiment:
-    """A walk at a gain; a factor of 1 leaves the learning rates as the controller has them."""
+    """A walk at a gain. A factor of 1 leaves the learning rates as they are."""
     walk = Experiment(controller=controller, seed=seed, mi=mi, duration=WALK_S)
     method = named_controller(controller).method
     if method in PARAMETERS:
@@ -90,12 +90,12 @@ def _scaled(name: str, value: Any, factor: float) -> float:
 
 
 def seeds(cell: Mapping[str, Any], trials: int) -> int:
-    """A quarter of the seeds at the gains that the controller has."""
+    """A quarter of the seeds at the gains of the controller, none at other gains."""
     return -(-trials // 4) if cell["gain"] in GAINS[cell["controller"]] else 0
 
 
 def measure(record: Record) -> Result:
-    """How many oscillators do not move at the end."""
+    """Number of oscillators that do not move at the end. None for a run without that part."""
     late = record.signals["o1"][record.time >= record.ended_at - LAST]
     if len(late) == 0:
         return {STILL: None}
@@ -103,18 +103,18 @@ def measure(record: Record) -> Result:
 
 
 def best_setting(results: Sequence[Result]) -> float | None:
-    """The gain with the most walks in the strict trot; of equal ones that which forms it first.
+    """The gain with the most walks in the strict gait.
 
-    A walk counts if the gait formed by the criterion, the robot did not fall and it goes at
-    0.03 m/s or more at the end. Of gains with as many by the strict criterion, the one with most
-    by the authors'; then the one with the lowest median of the authors' time, a run without one
-    counting as never; then the smaller one.
+    A walk counts if the gait formed by the criterion, the robot did not fall, and its speed at the
+    end is at least ``WALKS``. Gains with as many walks are ordered by the number of walks by the
+    authors' criterion, then by the median of the authors' time, where a run without one counts as
+    infinite, then by size.
 
     Args:
-        results: of one controller, with as many runs at every gain.
+        results: results of one controller, with the same number of runs at every gain.
 
     Returns:
-        The gain, None without a result or if no run counts by either criterion.
+        The gain. None without results, or if no run counts by either criterion.
     """
 
     def merit(gain: float) -> tuple[int, int, float, float]:
@@ -127,20 +127,20 @@ def best_setting(results: Sequence[Result]) -> float | None:
 
 
 def walks(results: Sequence[Result], criterion: str = STRICT) -> int:
-    """How many runs end walking, after the gait formed by a criterion."""
+    """Number of runs whose gait formed by a criterion and that walk at the end."""
     fast = (is_number(result.get(LATE_SPEED)) and result[LATE_SPEED] >= WALKS for result in results)
     return sum(a and b for a, b in zip(successes(results, criterion), fast, strict=True))
 
 
 def _reference(results: Sequence[Result], label: str) -> float | None:
-    """The gain that others are held against: the best of a baseline, the shipped one of APNC."""
+    """Gain to compare others with: the best of a baseline, the shipped one of APNC."""
     return best_setting(results) if label in PARAMETERS else 1.0
 
 
 def too_strong(results: Sequence[Result]) -> Finding:
-    """At the strongest gain an oscillator has stopped in half of the runs, at the best in none.
+    """Whether oscillators stop at the strongest gain and none does at the best gain.
 
-    In some runs is 'partly'.
+    Reproduced if one stops in half of the runs at the strongest gain, partly if in some.
     """
 
     def of(label: str) -> Finding:
@@ -159,7 +159,10 @@ def too_strong(results: Sequence[Result]) -> Finding:
 
 
 def too_weak(results: Sequence[Result], column: str) -> Finding:
-    """At the weakest gain the gait forms significantly later than at the best; never is latest."""
+    """Whether the gait forms significantly later at the weakest gain than at the best.
+
+    A run in which it never forms counts with its duration.
+    """
 
     def of(label: str) -> Finding:
         own = matching(results, controller=label)
@@ -181,7 +184,7 @@ def _text(gain: float | None) -> str:
 
 
 def table(results: Sequence[Result]) -> str:
-    """A line per controller and gain; the best of a baseline is marked."""
+    """A line per controller and gain. The best of a baseline is marked."""
     lines = []
     for label in (label for label in GAINS if matching(results, controller=label)):
         own = matching(results, controller=label)
@@ -212,7 +215,7 @@ def _line(label: str, gain: float, results: Sequence[Result], best: bool) -> dic
 
 
 def figures(results: Sequence[Result]) -> list[Figure]:
-    """Times and success over the gain, by controller and criterion."""
+    """Times and success over the gain, a figure per controller and criterion."""
     found = []
     for label, title in TITLES.items():
         own = [

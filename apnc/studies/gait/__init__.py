@@ -1,4 +1,4 @@
-"""How the robot walks, over MI: formation, feet, turn and speed, each beside what is aimed at."""
+"""How the robot walks over MI: formation, feet, turn and speed, each with its aim."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ MI_VALUES: Final = (*(round(0.06 + 0.02 * i, 2) for i in range(12)), 0.32, 0.36,
 """MI at which the walk starts and stays."""
 
 CORE: Final = (0.08, 0.28)
-"""First and last MI at which every run must form the gait."""
+"""First and last MI of the range in which every run must form the gait."""
 
 SETTLED_S: Final = 10.0
-"""Time from which on the feet count: the gait has formed and the couplings are on [s]."""
+"""Time from which the feet are measured. The gait has formed and the couplings are on [s]."""
 
 AXIS: Final = ("mi", "MI [1]")
 LIFT, SLIP, TOUCHES = "lowest_lift_mm", "largest_slip_share", "worst_touch_downs"
@@ -34,12 +34,12 @@ TURNED, LATE_SPEED = "turned_deg", "late_speed_m_per_s"
 
 
 def measure(record: Record) -> Result:
-    """Figures of the worst foot from 10 s on; None for a run that did not get there.
+    """Figures of the worst foot from 10 s on. None for a run that is not complete.
 
     Returns:
-        ``lowest_lift_mm``: lift in mid-swing of the foot that lifts least [mm];
-        ``largest_slip_share``: slip per stride of the foot that slips most, over the stride [1];
-        ``worst_touch_downs``: touch-downs per stride of the foot that is furthest from one [1].
+        ``lowest_lift_mm``: smallest lift in mid-swing of a foot [mm].
+        ``largest_slip_share``: largest slip of a foot in a stride, over the stride length [1].
+        ``worst_touch_downs``: touch-downs of a foot in a stride, of the foot furthest from one [1].
     """
     part = record.time >= SETTLED_S
     if not record.complete or np.count_nonzero(part) < 2:
@@ -53,7 +53,7 @@ def measure(record: Record) -> Result:
     lifts = _known(metrics.foot_lifts(feet, standing, starts))
     slips = _known(metrics.slips(feet, standing, starts))
     touches = _known(metrics.touch_downs_per_stride(standing, starts))
-    # a foot that never stands has no lift, one that stands for ever no stride: neither walks
+    # a foot that never stands has no lift, and one that always stands has no stride
     every = len(lifts) == len(slips) == len(touches) == len(record.legs)
     if not every or stride is None:
         return dict.fromkeys((LIFT, SLIP, TOUCHES))
@@ -69,9 +69,9 @@ def _known(figures: Sequence[float | None]) -> list[float]:
 
 
 def forms(low: float, high: float, share: float) -> Rule:
-    """The gait forms, by the strict criterion, in a share of the runs at every MI from low to high.
+    """Rule: a share of the runs forms the gait by the strict criterion at every MI of a range.
 
-    'Partly' if it does at most of them.
+    Partly if it does at more than half of them.
     """
 
     def rule(results: Sequence[Result]) -> Finding:
@@ -86,7 +86,7 @@ def forms(low: float, high: float, share: float) -> Rule:
 
 
 def quickly(limit: float) -> Rule:
-    """The median strict time is at most a limit [s] at every MI of the core."""
+    """Rule: the median strict time is at most a limit [s] at every MI of ``CORE``."""
 
     def rule(results: Sequence[Result]) -> Finding:
         times = _by_mi(_core(results), STRICT)
@@ -103,9 +103,17 @@ def quickly(limit: float) -> Rule:
 
 
 def worst(column: str, unit: str, digits: int, scale: float, fits: tuple[float, float]) -> Rule:
-    """The median of a figure of the worst foot is inside its limits at every MI.
+    """Rule: the median of a figure of the worst foot is inside its limits at every MI.
 
-    'Partly' if it is at more than half of them. A run without the figure counts as outside.
+    Partly if it is at more than half of them. The median is outside if half of the runs or more
+    lack the figure.
+
+    Args:
+        column: the figure.
+        unit: unit in the text of the finding.
+        digits: digits after the point in that text.
+        scale: factor on the figure in that text.
+        fits: smallest and largest allowed median.
     """
 
     def rule(results: Sequence[Result]) -> Finding:
@@ -128,9 +136,9 @@ def worst(column: str, unit: str, digits: int, scale: float, fits: tuple[float, 
 
 
 def straight(median_limit: float, limit: float) -> Rule:
-    """At every MI the median turn is at most one limit and no run turns beyond the other [deg].
+    """Rule: at every MI the median turn and the turn of every run are within limits [deg].
 
-    'Partly' if the median is below its limit at more than half of the MI.
+    Partly if the median is within its limit at more than half of the MI.
     """
 
     def rule(results: Sequence[Result]) -> Finding:
@@ -159,7 +167,7 @@ def _by_mi(results: Sequence[Result], column: str) -> dict[float, list[float]]:
 
 
 def table(results: Sequence[Result]) -> str:
-    """A line per MI; a trial that ended with an error counts as a failure."""
+    """A line per MI. A trial that ended with an error counts as a failure."""
     gait = gait_in(results)
     return markdown(_line(gait, mi, matching(results, mi=mi)) for mi in cells_in(results, "mi"))
 
@@ -196,7 +204,7 @@ AIMS: Final = (
     Claim("aim", "straight: a turn of at most 15 deg in 45 s in the median, of 30 in any run",
           straight(15.0, 30.0)),
 )  # fmt: skip
-"""What the robot is built for; not claims of the paper."""
+"""Aims of the robot's design. They are no claims of the paper."""
 
 STUDY: Final = Study(
     STUDIES["gait"],

@@ -45,24 +45,24 @@ from apnc.studies.table import markdown, middle
 
 MI_VALUES: Final = tuple(round(0.04 + 0.02 * i, 2) for i in range(13))
 OTHERS_MI: Final = MI_VALUES[::2]
-"""MI at which the others than APNC walk, with half of the seeds."""
+"""MI at which the controllers other than APNC walk, with half of the seeds."""
 
 AXIS: Final = ("mi", "MI [1]")
 GAIT: Final = "gait_at_the_end"
 
 SETTLED_S: Final = 5.0
-"""Last part of a run whose phases are told by name [s]."""
+"""Time at the end of a run over which the gait is named [s]."""
 
 COHERENT: Final = 0.9
-"""Least coherence of phases that stay: a drift through a quarter of a cycle has just that [1]."""
+"""Smallest coherence of settled phases. A drift through a quarter of a cycle has this value [1]."""
 
 DUTY, STRIDE = "duty_factor_mean", "stride_frequency_hz"
 
 
 def within(limit: float) -> Rule:
-    """The median time of APNC is at most a limit [s] and every trial forms the gait.
+    """Rule: the median time of APNC is at most a limit [s], and every trial forms the gait.
 
-    Fast, but not in every trial, is 'partly'.
+    Partly if not every trial forms it.
     """
 
     def check(results: Sequence[Result], column: str) -> Finding:
@@ -76,7 +76,7 @@ def within(limit: float) -> Rule:
 
 
 def duty_at_high_mi(results: Sequence[Result]) -> Finding:
-    """From MI 0.24 on the median duty factor is within 0.05 of 0.72; within 0.1 is 'partly'."""
+    """From MI 0.24 on the median duty factor is within 0.05 of 0.72. Within 0.1 is partly."""
     high = [result for result in matching(results, controller="apnc") if result["mi"] >= 0.24]
     duty = median(values(high, DUTY))
     off = abs(duty.value - 0.72)
@@ -87,7 +87,7 @@ def duty_at_high_mi(results: Sequence[Result]) -> Finding:
 def stride_line(results: Sequence[Result]) -> Finding:
     """The median frequency of the oscillators is within 15 % of 8.6 MI + 0.5 Hz.
 
-    Growing with MI is 'partly'.
+    Partly if it only rises with MI.
     """
     known = [
         result for result in matching(results, controller="apnc") if is_number(result.get(STRIDE))
@@ -103,11 +103,11 @@ def stride_line(results: Sequence[Result]) -> Finding:
 
 
 def measure(record: Record) -> Result:
-    """Which gait the robot has at the end; None for a run that did not come to its end.
+    """The gait at the end. None for a run that is not complete.
 
     Returns:
-        ``gait_at_the_end``: name of the gait within 0.6 rad of the mean phases of the last 5 s;
-        "no name" for phases that stay, but are those of no gait, "unsettled" for phases that move.
+        ``gait_at_the_end``: name of the gait within 0.6 rad of the mean phases of the last 5 s.
+        "unsettled" if the phases still move, "no name" if they are those of no known gait.
     """
     if not record.complete:
         return {GAIT: None}
@@ -120,7 +120,7 @@ def measure(record: Record) -> Result:
 
 
 def table(results: Sequence[Result]) -> str:
-    """A line per controller and MI; a trial that ended with an error counts as a failure."""
+    """A line per controller and MI. A trial that ended with an error counts as a failure."""
     cells = [
         (controller, mi) for controller in controllers_in(results) for mi in cells_in(results, "mi")
     ]
@@ -150,7 +150,7 @@ def _line(controller: str, mi: float, results: list[Result]) -> dict[str, str]:
 
 
 def gaits(results: Sequence[Result]) -> str:
-    """How many runs end in which gait, the most frequent first: ``tripod 17, unsettled 3``."""
+    """Number of runs by gait at the end, the most frequent first: ``tripod 17, unsettled 3``."""
     count = Counter(result[GAIT] for result in results if result.get(GAIT))
     return ", ".join(f"{name} {runs}" for name, runs in count.most_common()) or "-"
 

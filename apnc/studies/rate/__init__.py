@@ -32,7 +32,7 @@ OTHERS_RATES: Final = (5.0, 15.0, 25.0, 30.0, 60.0)
 
 
 def only_above(limit: float, controllers: Sequence[str]) -> Rule:
-    """Above a rate [Hz] every trial of these controllers forms the gait, up to it not every one."""
+    """Rule: every trial of these controllers forms the gait above a rate [Hz], not all up to it."""
 
     def check(results: Sequence[Result], column: str) -> Finding:
         low = [result for result in results if result["rate"] <= limit]

@@ -1,8 +1,8 @@
 """``python -m apnc.studies.search --output runs/search``; needs the extra ``search``.
 
-All runs of a generation walk in C, side by side. Writes every candidate with its costs to
-``search.csv``. The same seed gives the same search, whatever the number of workers.
-``apnc.studies.search.front`` finds the best of all candidates of some logs.
+All runs of a generation walk in C, side by side. Every candidate is written with its costs to
+``search.csv``. The same seed gives the same search for any number of workers.
+``apnc.studies.search.front`` finds the best candidates of some logs.
 """
 
 from __future__ import annotations
@@ -25,22 +25,32 @@ from apnc_plant.robot import load_robot
 
 def search(
     output: Annotated[Path, typer.Option(help="Folder for search.csv.")] = Path("runs/search"),
-    robot: Annotated[str, typer.Option(help="Name of the robot.")] = "lilibot",
+    robot: Annotated[str, typer.Option(help="Robot name.")] = "lilibot",
     controller: Annotated[
         str, typer.Option(help="Controller: apnc, tegotae, phase_reset.")
     ] = "apnc",
-    own_robot: Annotated[bool, typer.Option(help="A baseline's robot and pose, too.")] = False,
-    feet: Annotated[float, typer.Option(help="Weight of lift, slip, touches and turn.")] = 1.0,
-    seed: Annotated[int, typer.Option(help="Of optimiser and trials.")] = 1,
-    generations: Annotated[int, typer.Option(min=1, help="How many.")] = 60,
-    candidates: Annotated[int, typer.Option(min=2, help="In a generation.")] = 14,
-    workers: Annotated[int, typer.Option(min=1, help="Threads.")] = 1,
-    sigma: Annotated[float, typer.Option(help="First spread, share of the ranges.")] = 0.15,
-    begin: Annotated[Path | None, typer.Option(help="Log whose last mean is the start.")] = None,
+    own_robot: Annotated[
+        bool, typer.Option(help="For a baseline, search robot and pose as well.")
+    ] = False,
+    feet: Annotated[
+        float, typer.Option(help="Weight of the costs of lift, slip, touch-downs and turn.")
+    ] = 1.0,
+    seed: Annotated[int, typer.Option(help="Seed of optimiser and trials.")] = 1,
+    generations: Annotated[int, typer.Option(min=1, help="Number of generations.")] = 60,
+    candidates: Annotated[
+        int, typer.Option(min=2, help="Number of candidates in a generation.")
+    ] = 14,
+    workers: Annotated[int, typer.Option(min=1, help="Number of threads.")] = 1,
+    sigma: Annotated[
+        float, typer.Option(help="First standard deviation, as share of each range.")
+    ] = 0.15,
+    begin: Annotated[
+        Path | None, typer.Option(help="Log of a search whose last mean is the start.")
+    ] = None,
 ) -> None:
-    """Search and print the mean of the last distribution.
+    """Search, and print the mean of the last distribution.
 
-    Every generation has a new random robot and noise, the same for its candidates.
+    Every generation has its own seeds, the same for all of its candidates.
     """
     variables = design_variables(robot, controller, own_robot=own_robot)
     first = [_within(variable.scaled(value)) for variable, value in _begin(robot, variables, begin)]
@@ -92,7 +102,7 @@ def _begin(
 
 
 def _strategy(first: Sequence[float], sigma: float, seed: int, candidates: int) -> Any:
-    """CMA-ES; for a single number, which that does not search, an even look at all of its range."""
+    """CMA-ES, or even samples of the range for a single variable, which CMA-ES does not search."""
     if len(first) == 1:
         return Spread(candidates, seed)
     try:
@@ -104,9 +114,9 @@ def _strategy(first: Sequence[float], sigma: float, seed: int, candidates: int) 
 
 
 class Spread:
-    """One number, looked at all over its range in every generation, with the interface of ``cma``.
+    """Even samples of the range of one variable in every generation, with the interface of ``cma``.
 
-    Its favourite has the lowest mean over its neighbours of all generations.
+    The favourite has the lowest mean cost over its neighbours of all generations.
     """
 
     def __init__(self, candidates: int, seed: int) -> None:
@@ -125,7 +135,7 @@ class Spread:
 
     @property
     def result(self) -> Spread:
-        """This, which has the favourite."""
+        """This object, which has the favourite."""
         return self
 
     @property

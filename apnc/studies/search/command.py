@@ -1,4 +1,4 @@
-"""How the two commands of the search run: errors of input as one line, a bar over long work."""
+"""Runs the commands of the search, with one line for an error and a progress bar."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Item = TypeVar("Item")
 
 
 def run(command: Callable[..., None]) -> None:
-    """Run a command; what is wrong with its input is one line, and exit code 2."""
+    """Run a command. An error of the input is printed in one line and exits with code 2."""
     try:
         typer.run(command)
     except (ValueError, RuntimeError, OSError) as error:
@@ -22,5 +22,5 @@ def run(command: Callable[..., None]) -> None:
 
 
 def tracked(items: Iterable[Item], total: int, what: str) -> Iterable[Item]:
-    """The items, with a bar and an estimate on stderr."""
+    """The items, with a progress bar and the estimated time left on stderr."""
     return track(items, what, total, console=Console(stderr=True))

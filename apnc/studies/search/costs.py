@@ -1,7 +1,7 @@
-"""What a candidate must do, in short runs, and how far it is from that; 0 is perfect.
+"""The runs of a candidate and their costs, which are 0 for a perfect walk.
 
-A run that does not come to its end, since the robot fell or the motion diverged, costs ``FAILED``.
-All runs of all candidates walk in C, side by side.
+A run that is not complete, since the robot fell or the motion diverged, costs ``FAILED``. All runs
+of all candidates walk in C, side by side.
 """
 
 from __future__ import annotations
@@ -40,10 +40,10 @@ BANDS: Final = {
     6: ((WALK_MI,), (0.10, 0.09, 0.11), (0.12, 0.13), (SCHEDULE_MI,), (0.18, 0.20)),
     8: ((WALK_MI,), (0.10, 0.09, 0.11), (0.12, 0.13), (SCHEDULE_MI,), (0.18, 0.20)),
 }  # fmt: skip
-"""One MI of each band is walked in a generation, in turn; by number of legs."""
+"""Bands of MI by number of legs. A generation walks at one MI of each band, in turn."""
 
 FASTEST: Final = 0.40
-"""MI of the fast walk; more legs do not get there and have no cost for it."""
+"""MI of the fast walk, for four legs."""
 
 RATES: Final = (25.0, 45.0, 15.0, 30.0, 20.0, 10.0)
 """Update rates [Hz], in turn."""

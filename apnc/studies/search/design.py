@@ -1,4 +1,4 @@
-"""The numbers that are searched, each with the range that is plausible for it."""
+"""The design variables of the search, each with its plausible range."""
 
 from __future__ import annotations
 
@@ -15,7 +15,14 @@ from apnc_plant.robot import Leg, RobotDescription, load_robot
 
 
 class DesignVariable(NamedTuple):
-    """One number that is searched: parameter of the controller, or ``part.field`` of the robot."""
+    """A number that is searched.
+
+    Args:
+        name: name of a parameter of the controller, or ``part.field`` of the robot.
+        low: lower end of the range.
+        high: upper end of the range.
+        log: whether the range is searched on a logarithmic scale.
+    """
 
     name: str
     low: float
@@ -29,14 +36,14 @@ class DesignVariable(NamedTuple):
         return self.low + x * (self.high - self.low)
 
     def scaled(self, value: float) -> float:
-        """``x`` of a value."""
+        """``x`` in [0, 1] of a value."""
         if self.log:
             return math.log(value / self.low) / math.log(self.high / self.low)
         return (value - self.low) / (self.high - self.low)
 
 
 Candidate = Mapping[str, float]
-"""Values by the names of their variables."""
+"""Values by name of the design variable."""
 
 _UNKNOWN: Final = (
     DesignVariable("servo.reflected_inertia", 0.0075, 0.02, log=True),
@@ -44,7 +51,7 @@ _UNKNOWN: Final = (
     DesignVariable("contact.damping", 300.0, 800.0, log=True),
     DesignVariable("sensor.delay", 0.005, 0.07),
 )
-"""What is published of no robot."""
+"""Numbers that are not published for any robot."""
 
 _BODY: Final = (
     DesignVariable("servo.stiffness", 14.0, 24.0, log=True),
@@ -99,13 +106,13 @@ OWN: Final[Mapping[str, DesignVariable]] = {
     "tegotae": DesignVariable("gamma_tegotae", 0.004, 0.4, log=True),
     "phase_reset": DesignVariable("grf_reset", 0.05, 1.6, log=True),
 }
-"""The free number of each baseline."""
+"""The free parameter of each baseline."""
 
 
 def design_variables(
     robot: str, controller: str, *, own_robot: bool = False
 ) -> tuple[DesignVariable, ...]:
-    """What is searched for a controller.
+    """Design variables for a robot and a controller.
 
     Args:
         robot: name of the robot.
@@ -127,7 +134,7 @@ def design_variables(
 
 
 def start(robot: RobotDescription, name: str) -> float:
-    """The shipped value of a variable."""
+    """Shipped value of a design variable."""
     if "." not in name:
         return float(robot.controller.get(name, getattr(Parameters(), name)))
     if name in ("trunk.com_x", "trunk.com_z"):
@@ -140,7 +147,7 @@ def start(robot: RobotDescription, name: str) -> float:
 
 
 def built_robot(candidate: Candidate, name: str = "lilibot") -> RobotDescription:
-    """A robot with the physical unknowns of a candidate."""
+    """The robot of a candidate."""
     robot = load_robot(name)
     for variable, value in candidate.items():
         part, _, field = variable.partition(".")
@@ -162,7 +169,7 @@ def _is_outer(robot: RobotDescription, leg: Leg) -> bool:
 
 
 def _stood(robot: RobotDescription, outer: bool, axis: int, value: float) -> RobotDescription:
-    """The outer or the inner legs moved; y is away from the middle plane, on either side."""
+    """The robot with its outer or inner legs moved. y points away from the middle plane."""
     legs = []
     for leg in robot.legs:
         mount = list(leg.mount)
@@ -173,7 +180,7 @@ def _stood(robot: RobotDescription, outer: bool, axis: int, value: float) -> Rob
 
 
 def gains(candidate: Candidate) -> dict[str, float]:
-    """Parameters of the controller of a candidate; counts are rounded."""
+    """Parameters of the controller of a candidate. Whole numbers are rounded."""
     whole = {v.name for v in variables_of(Causality.parameter) if v.type is Type.integer}
     own = {name: value for name, value in candidate.items() if "." not in name}
     return {name: round(value) if name in whole else value for name, value in own.items()}

@@ -1,8 +1,8 @@
-"""``python -m apnc.studies.search.front LOG ... --output front.csv``: where the aims collide.
+"""``python -m apnc.studies.search.front LOG ... --output front.csv``: the Pareto front of searches.
 
-The candidates of some searches that others beat least in formation and in feet at once are walked
-again, all with the same seeds, and measured in the figures of the study ``gait``. Those that none
-beats in these are the front.
+The best candidates of the logs, by their costs of formation and of feet, walk again with the same
+seeds and are measured as in the study ``gait``. The Pareto front holds the candidates that no other
+dominates in the five measures of ``BETTER``.
 """
 
 from __future__ import annotations
@@ -33,18 +33,18 @@ WALK_S: Final = 25.0
 SHIPPED: Final = "shipped"
 
 BETTER: Final = {"strict": 1, "payload": 1, "lift_mm": 1, "ratio": 1, "turn_deg": -1}
-"""The figures that collide, of which the front is: 1 if more is better, -1 if less."""
+"""Measures of the Pareto front: 1 if more is better, -1 if less."""
 
 
 def best_ranks(points: ArrayLike, count: int) -> NDArray[np.intp]:
-    """The first ``count`` points when the front is taken away again and again.
+    """The best points by non-dominated sorting.
 
     Args:
-        points: smaller is better in each, shape (n, k).
-        count: how many; all if there are fewer.
+        points: measures of each point, of which smaller is better, shape (n, k).
+        count: number of points; all if there are fewer.
 
     Returns:
-        Their indices; within a layer by the first figure.
+        Their indices by rank, and within a rank by the first measure.
     """
     values = np.asarray(points, dtype=np.float64)
     left, found = np.arange(len(values)), np.empty(0, dtype=np.intp)
@@ -56,7 +56,13 @@ def best_ranks(points: ArrayLike, count: int) -> NDArray[np.intp]:
 
 
 def non_dominated(points: ArrayLike) -> NDArray[np.bool_]:
-    """Points to which no other is at least equal in all figures and better in one; shape (n,)."""
+    """Whether each point is on the Pareto front, shape (n,).
+
+    A point is dominated if another is no worse in all measures and better in one.
+
+    Args:
+        points: measures of each point, of which smaller is better, shape (n, k).
+    """
     p = np.asarray(points, dtype=np.float64)
     no_worse = (p[:, None] <= p).all(axis=2)
     better = (p[:, None] < p).any(axis=2)
@@ -64,7 +70,7 @@ def non_dominated(points: ArrayLike) -> NDArray[np.bool_]:
 
 
 def candidates_of(logs: Sequence[Path], count: int, robot: str) -> dict[str, Candidate]:
-    """The candidates of some logs that are best in formation and in feet, by log and line.
+    """The candidates of the logs that are best in formation and in feet, by log and line.
 
     Raises:
         ValueError: a file that is no log of a search for APNC on this robot.
@@ -89,7 +95,7 @@ def candidates_of(logs: Sequence[Path], count: int, robot: str) -> dict[str, Can
 
 
 def walks_of(candidate: Candidate, robot: str, seeds: int) -> list[Experiment]:
-    """Walks of a candidate: at every MI with so many seeds, then twice as many with payload."""
+    """Walks of a candidate: ``seeds`` at every MI, then twice as many with payload."""
     what: dict[str, Any] = {
         "robot": built_robot(candidate, robot),
         "settings": gains(candidate),
@@ -101,16 +107,16 @@ def walks_of(candidate: Candidate, robot: str, seeds: int) -> list[Experiment]:
 
 
 def result_of(record: Record) -> Result:
-    """What the figures of a candidate are made of, of one of its walks."""
+    """Figures of one walk."""
     return summarise(record).to_dict() | gait.measure(record)
 
 
 def measured(walks: Sequence[Result], seeds: int) -> dict[str, float]:
-    """Figures of a candidate over MI, and with payload at MI 0.08.
+    """Measures of a candidate.
 
     Args:
-        walks: a result of each, in the order of :func:`walks_of`.
-        seeds: at every MI.
+        walks: figures of its walks, in the order of :func:`walks_of`.
+        seeds: number of seeds at every MI.
     """
     results = {mi: walks[n * seeds : (n + 1) * seeds] for n, mi in enumerate(MI_VALUES)}
     loaded = walks[len(MI_VALUES) * seeds :]
@@ -136,7 +142,7 @@ def measured(walks: Sequence[Result], seeds: int) -> dict[str, float]:
 def walked(
     tried: Mapping[str, Candidate], robot: str, seeds: int, workers: int
 ) -> Iterator[tuple[str, dict[str, float]]]:
-    """Label and figures of candidates as their walks are done; all of them walk side by side."""
+    """Label and measures of candidates, as their walks end. All walk side by side."""
     walks = {label: walks_of(candidate, robot, seeds) for label, candidate in tried.items()}
     places = [(label, n) for label, own in walks.items() for n in range(len(own))]
     results: dict[str, dict[int, Result]] = {label: {} for label in tried}
@@ -163,16 +169,18 @@ def _median(
 
 
 def front(
-    logs: Annotated[list[Path], typer.Argument(help="search.csv of searches, for one robot.")],
-    output: Annotated[Path, typer.Option(help="File of figures and numbers.")] = Path("front.csv"),
-    robot: Annotated[str, typer.Option(help="Name of the robot.")] = "lilibot",
-    count: Annotated[int, typer.Option(min=1, help="How many candidates walk again.")] = 40,
-    seeds: Annotated[int, typer.Option(min=1, help="Of every walk.")] = 3,
-    workers: Annotated[int, typer.Option(min=1, help="Threads.")] = 1,
+    logs: Annotated[
+        list[Path], typer.Argument(help="Files search.csv of searches for the same robot.")
+    ],
+    output: Annotated[Path, typer.Option(help="File for measures and values.")] = Path("front.csv"),
+    robot: Annotated[str, typer.Option(help="Robot name.")] = "lilibot",
+    count: Annotated[int, typer.Option(min=1, help="Number of candidates that walk again.")] = 40,
+    seeds: Annotated[int, typer.Option(min=1, help="Seeds at every MI.")] = 3,
+    workers: Annotated[int, typer.Option(min=1, help="Number of threads.")] = 1,
 ) -> None:
-    """Walk the best candidates again and write their figures, the front marked.
+    """Walk the best candidates again and write their measures, with the Pareto front marked.
 
-    Interrupted, it writes those that have walked.
+    An interrupted run writes the candidates that have walked.
     """
     tried = candidates_of(logs, count, robot)
     shipped = load_robot(robot)

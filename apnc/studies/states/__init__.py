@@ -29,16 +29,16 @@ MEANING: Final = {
             "rocks in place, legs in phase"),
 }  # fmt: skip
 WITH_GAIT: Final = ("forms", "keeps the {gait} and walks", "comes back to the {gait} and walks")
-"""The same of all others, of which the paper has no figure."""
+"""Meaning of the states for all other controllers. The paper has no figure of them."""
 
 
 def state(name: str, controller: str, when: tuple[str, str] | None = None) -> Rule:
-    """A state went as the paper says in every run of a controller; half of them are 'partly'.
+    """Rule: a state went as the paper says in every run of a controller. Half of them is partly.
 
     Args:
         name: S1, S2 or S3.
-        controller: with (apnc) or without the couplings.
-        when: what else is told: a column in seconds, and its word.
+        controller: label: apnc with the couplings, apc without.
+        when: column with a time [s] to add to the text, and the word before it.
     """
 
     def rule(results: Sequence[Result]) -> Finding:
@@ -54,9 +54,9 @@ def state(name: str, controller: str, when: tuple[str, str] | None = None) -> Ru
 
 
 def without_gait(name: str) -> Rule:
-    """No run of a baseline, at any setting, has the gait in a state; of less than half 'partly'.
+    """Rule: no run of a baseline has the gait in a state, at any setting.
 
-    In S2 only runs count that had the gait at the break.
+    Less than half of the runs is partly. In S2 only runs count that had the gait at the break.
     """
 
     def rule(results: Sequence[Result]) -> Finding:
@@ -81,9 +81,10 @@ def without_gait(name: str) -> Rule:
 
 
 def gamma_by_itself(results: Sequence[Result]) -> Finding:
-    """With all feedback kept gamma falls to half or less when the couplings are on, in the median.
+    """With all feedback kept, the median of gamma falls to half or less once the couplings are on.
 
-    To four fifths is 'partly'. With less feedback kept the fall is imposed and proves nothing.
+    A fall to four fifths is partly. APNC keeps less feedback, so its gamma falls by construction
+    and does not count.
     """
     texts, ratios = [], []
     for label in ("apnc", "apnc_kept"):

@@ -13,7 +13,7 @@ from apnc.studies.results import Result
 from apnc.studies.states.timeline import TIMELINE, Timeline
 
 STOPPED: Final = 0.2
-"""An oscillator whose o1 moves less than this, of about 1.7 in a cycle, counts as stopped [1]."""
+"""Range of o1 below which an oscillator counts as stopped. It is about 1.7 in a cycle [1]."""
 
 WALKS: Final = 0.03
 """Slowest mean speed along the heading that counts as walking [m/s]."""
@@ -22,18 +22,21 @@ ROOTED: Final = 0.01
 """Fastest mean speed along the heading that counts as rocking in place [m/s]."""
 
 SETTLING: Final = 2.0
-"""Time that a broken sensor gets to stop its oscillator [s]."""
+"""Time after the break in which a front oscillator may still move [s]."""
 
 LAST: Final = 3.0
-"""Last part of a state over which its speed is the mean [s]."""
+"""Time at the end of a state over which its speed is averaged [s]."""
 
 
 AROUND: Final = 2.0
-"""Time before the couplings switch on, and before the break, over which gamma is the mean [s]."""
+"""Time before the couplings switch on, and before the break, over which gamma is averaged [s]."""
 
 
 def measure(record: Record) -> Result:
-    """What became of the gait; of a run that ended early no state went as the paper says."""
+    """The figures of ``judge``, and whether each state went as the paper says.
+
+    In a run that is not complete no state went as the paper says.
+    """
     if record.complete and record.ended_at >= TIMELINE.end:
         found = judge(record)
         found |= as_paper_says(found, record.experiment.controller_name)
@@ -45,9 +48,10 @@ def measure(record: Record) -> Result:
 
 
 def as_paper_says(found: Result, controller: str) -> Result:
-    """Whether S1, S2 and S3 went as in Fig. 10-12; ``apc`` is without, all else with couplings.
+    """Whether S1, S2 and S3 went as in Fig. 10-12.
 
-    A baseline is judged like the controller with couplings: does it keep and recover the gait?
+    ``apc`` is judged as the controller without couplings, which must lose the gait. All others are
+    judged as the one with couplings, which must keep and recover it.
     """
     s2 = found["kept"] and found["speed_s2"] >= WALKS
     s3 = found["recovered"] and found["speed_s3"] >= WALKS

@@ -1,4 +1,4 @@
-"""When what happens to the robot in the states S1 to S3; only time decides."""
+"""Times at which the robot enters the states S1 to S3."""
 
 from __future__ import annotations
 
@@ -12,17 +12,18 @@ from apnc.studies.study import SCHEDULE_MI
 
 @dataclass(frozen=True)
 class Timeline:
-    """Times from the start of the run [s].
+    """Times of the events in a run, from its start [s].
 
     Args:
-        lowered: the robot, held in the air before, is set down (S1); 0 if it stands from the start.
+        lowered: the robot, which was held in the air, is set down (S1). With 0 it stands from the
+            start.
         broken: the sensors of the front legs stick at 0.9 (S2).
         stopped: MI is 0, the load feedback of all legs is removed (S3).
-        restarted: MI is back, the feedback is not.
-        end: end of the run.
+        restarted: MI returns to its value, the feedback stays removed.
+        end: the run ends.
 
     Raises:
-        ValueError: times that do not follow each other.
+        ValueError: times that are not in this order.
 
     Source: section 3.2 and Fig. 9-12; 1.7 s and 20 ... 24 s are the paper's.
     """
@@ -40,7 +41,7 @@ class Timeline:
             raise ValueError(f"times {times} s do not follow each other")
 
     def experiment(self, controller: str, seed: int, **fields: Any) -> Experiment:
-        """The run through all states."""
+        """The experiment that passes through all states."""
         steps = {0.0: "S1", self.lowered: "C1", self.broken: "S2", self.stopped: "S3"}
         mi = ((0.0, SCHEDULE_MI), (self.stopped, 0.0), (self.restarted, SCHEDULE_MI))
         return Experiment(

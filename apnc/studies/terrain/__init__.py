@@ -1,4 +1,4 @@
-"""Section 3.1.3: the gait on ground with obstacles, other ones for every seed."""
+"""Section 3.1.3: the gait on ground with obstacles. Every seed has other obstacles."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from apnc_plant.ground import Obstacles
 
 ROUGHNESS: Final = (0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 1.0)
 OTHERS_ROUGHNESS: Final = (0.0, 0.4, 0.8, 0.9, 1.0)
-"""Roughness that the baselines walk on, with half of the seeds."""
+"""Roughness on which the baselines walk, with half of the seeds."""
 
 
 def experiment(seed: int, roughness: float, **fields: Any) -> Experiment:
@@ -41,7 +41,7 @@ def experiment(seed: int, roughness: float, **fields: Any) -> Experiment:
 
 
 def spread_grows(results: Sequence[Result], column: str) -> Finding:
-    """The time scatters significantly more above R = 0.5 than up to it, in every controller."""
+    """For every controller, the times spread significantly more above R = 0.5 than up to it."""
     smooth = [result for result in results if result["roughness"] <= 0.5]
     rough = [result for result in results if result["roughness"] > 0.5]
 
@@ -57,10 +57,10 @@ def spread_grows(results: Sequence[Result], column: str) -> Finding:
 
 
 def fails_above(results: Sequence[Result], column: str) -> Finding:
-    """Up to R = 0.8 every trial of Tegotae forms the gait, above not every one, at each setting.
+    """For each setting of Tegotae, every trial forms the gait up to R = 0.8, and not all above.
 
-    Significantly fewer above than up to it is 'partly'. One that does not form it below either
-    says nothing of the roughness: no verdict.
+    Significantly fewer above is partly. No verdict for a setting that forms it in fewer than
+    ``MIN_SEEDS`` trials up to 0.8, since roughness is then not what prevents it.
     """
     low = [result for result in results if result["roughness"] <= 0.8]
     high = [result for result in results if result["roughness"] > 0.8]
