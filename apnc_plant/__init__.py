@@ -1,1 +1,1 @@
-"""Robots, grounds, sensors and faults as data, and the robot in plain C that walks them."""
+"""Robots, grounds, sensors and conditions as data, and the plant in plain C that uses them."""

@@ -1,4 +1,4 @@
-"""What is drawn by chance: numbers of one generator in C, by seed and purpose."""
+"""Random numbers: one generator in C, addressed by seed and purpose."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ LARGEST_SEED: Final = 2**64 - 1
 
 
 def checked_seed(seed: object) -> int:
-    """The seed as a plain number.
+    """The seed as an ``int``.
 
     Raises:
-        ValueError: not a whole number from 0 to 2^64 - 1.
+        ValueError: the seed is not a whole number from 0 to 2^64 - 1.
     """
     if isinstance(seed, Integral) and not isinstance(seed, bool):
         number = int(seed)
@@ -25,14 +25,16 @@ def checked_seed(seed: object) -> int:
 
 
 def side_offset(robot: RobotDescription, seed: int) -> float:
-    """Sideways error of a trunk's centre of mass [m]: side and amount, within a quarter, by chance.
+    """Sideways error of a trunk's centre of mass [m].
+
+    Its side is random, and its amount is random within a quarter of the size that the robot says.
 
     Args:
-        robot: says the size of the error.
+        robot: its ``trunk.com_side_offset`` is the size of the error.
         seed: 0 to 2^64 - 1.
 
     Raises:
-        ValueError: another seed.
+        ValueError: the seed is not allowed.
     """
     _, lib = library()
     return float(lib.plant_side_offset(checked_seed(seed), robot.trunk.com_side_offset))

@@ -1,4 +1,4 @@
-"""A legged robot in plain C: the whole plant, from command to load, in one compiled library."""
+"""The plant in plain C: everything from command to load is computed by one compiled library."""
 
 from __future__ import annotations
 
@@ -21,17 +21,18 @@ from apnc_plant.start import start_coordinates
 from apnc_plant.trace import Trace
 
 KINDS: Final = {"legs": "PLANT_LEGS", "scalar": "PLANT_SCALAR"}
-"""Ways to compute one robot, and their names in ``plant.h``; the bits are the same."""
+"""Ways to compute one robot, and their names in ``plant.h``. All give the same bits."""
 
 SHORTEST: Final = 1e-4
-"""Length of a control tick [s] down to which no command and no load under way is lost."""
+"""Shortest control tick [s] for which no delayed command or load is lost."""
 
 
 class Plant:
     """One robot in plain C.
 
-    It stands parallel to the ground with its feet just above it, at rest. The same robot, seed,
-    ground, conditions and commands give the same motion bit for bit, on every machine.
+    At the start the robot is at rest and parallel to the ground, with its feet just above it. The
+    same robot, seed, ground, conditions and commands give the same motion bit for bit on every
+    machine.
 
     Attributes:
         n_legs: number of legs.
@@ -59,13 +60,13 @@ class Plant:
             seed: chooses the sideways error of the centre of mass and the sensor noise,
                 0 to 2^64 - 1.
             options: start and integration.
-            ground: what it stands on; level and smooth if omitted.
-            conditions: payload, damage and the like; none if omitted.
-            kind: how it is computed: ``legs`` side by side, which is faster, or ``scalar``.
+            ground: the ground; level and smooth if omitted.
+            conditions: payload, damage and sensor faults; none if omitted.
+            kind: ``legs`` computes the legs side by side, which is faster; ``scalar`` one by one.
 
         Raises:
-            ValueError: conditions name a leg the robot does not have, another seed or kind, or a
-                ground that the feet do not fit.
+            ValueError: conditions name a leg the robot does not have, the seed or kind is not
+                allowed, or the ground does not take feet of this radius.
         """
         ffi, self._lib = library()
         self._seed = checked_seed(seed)
@@ -87,24 +88,24 @@ class Plant:
         self._start = start_coordinates(self._numbers, self._ground, self._options)
         self._plant = PlantInC(robot, self._ground, kind)
         self._theta = np.zeros((2, self.n_legs))
-        self._hip, self._knee = (ffi.from_buffer("double[]", row) for row in self._theta)
-        self._row = np.zeros(self._lib.plant_sample_size(self.n_legs))
-        self._row_in_c = ffi.from_buffer("double[]", self._row)
+        self._hip, self._knee = (ffi.from_buffer("double[]", angles) for angles in self._theta)
+        self._latest = np.zeros(self._lib.plant_sample_size(self.n_legs))
+        self._sample_in_c = ffi.from_buffer("double[]", self._latest)
         self._height, self._ticking = self._conditions.held_at or 0.0, 0.0
         self._place(1.0 / 60.0)
         self.set_conditions(self._conditions)
 
     def _place(self, Ts: float) -> None:
-        """Put it to its start, where commands have come at a distance of Ts [s]."""
+        """Put the robot to its start; before it, commands came at a distance of Ts [s]."""
         self._ticking = Ts
         self._plant.place(self._numbers, self._seed, self._start, self._height, Ts)
         self._measure()
 
     def set_conditions(self, conditions: Conditions) -> None:
-        """Change what is wrong with the robot, from now on.
+        """Set the conditions that hold from now on.
 
         Raises:
-            ValueError: an unknown leg, or another payload than the plant was built with.
+            ValueError: a leg is unknown, or the payload is not the one the plant was built with.
         """
         conditions.check_legs(self.legs)
         conditions.check_payload(self._conditions.payload)
@@ -114,7 +115,7 @@ class Plant:
 
     def grf(self) -> Array:
         """Load of each foot as the sensors deliver it since the last tick [N], shape (n_legs,)."""
-        return self._row[-self.n_legs :].copy()
+        return self._latest[-self.n_legs :].copy()
 
     def advance(self, theta_hip: Array, theta_knee: Array, duration: float) -> None:
         """Command the servos and integrate one control tick.
@@ -125,16 +126,16 @@ class Plant:
             duration: length of the tick [s].
 
         Raises:
-            ValueError: a target is not finite or has the wrong shape, or the duration is not
-                positive; or the touch function of a ground of one's own raised an error.
+            ValueError: a target is not finite or has the wrong shape, the duration is not
+                positive, or the touch function of a ground of one's own raised an error.
             PlantError: the integration diverged.
         """
-        for row, name, value in zip(
+        for angles, name, value in zip(
             self._theta, ("theta_hip", "theta_knee"), (theta_hip, theta_knee), strict=True
         ):
             if np.shape(value) != (self.n_legs,) or not np.isfinite(value).all():
                 raise ValueError(f"{name} is {value}; allowed: {self.n_legs} finite angles")
-            row[:] = value
+            angles[:] = value
         if not (math.isfinite(duration) and duration > 0.0):
             raise ValueError(f"duration is {duration}; allowed: a finite number above 0")
         if self.time == 0.0 and duration != self._ticking:
@@ -149,19 +150,19 @@ class Plant:
             raise PlantError(f"the motion diverged before t = {self.time:.4f} s")
 
     def _measure(self) -> None:
-        self._lib.plant_sample(self._plant.at, 0, self._row_in_c)
+        self._lib.plant_sample(self._plant.at, 0, self._sample_in_c)
 
     def trace(self) -> Trace:
-        """A recorder of every signal in ``PLANT_SIGNALS``, a row per tick."""
-        return Trace((self._row,), self._signals)
+        """A recorder of every signal in ``PLANT_SIGNALS``, with one sample per tick."""
+        return Trace((self._latest,), self._signals)
 
     def sample(self) -> dict[str, Array]:
         """One sample of every signal in ``PLANT_SIGNALS``, at the current time."""
-        signals = self._signals(self._row[np.newaxis])
+        signals = self._signals(self._latest[np.newaxis])
         return {name: values[0] for name, values in signals.items()}
 
-    def _signals(self, rows: Array) -> dict[str, Array]:
-        return sample_signals(rows, self.n_legs)
+    def _signals(self, samples: Array) -> dict[str, Array]:
+        return sample_signals(samples, self.n_legs)
 
     @property
     def fell(self) -> bool:
@@ -173,22 +174,22 @@ class Plant:
 
 
 class PlantInC:
-    """Memory of one plant with room for one robot; see ``plant.h``.
+    """Memory of a plant for one robot; see ``plant.h``.
 
     Attributes:
-        at: where it begins.
+        at: pointer to the memory.
     """
 
     def __init__(self, robot: RobotDescription, ground: GroundInC, kind: str) -> None:
-        """Make room.
+        """Allocate the memory.
 
         Args:
-            robot: the robot that will stand in it.
-            ground: what it will stand on.
-            kind: how it is computed, see ``KINDS``.
+            robot: the robot that will be placed.
+            ground: the ground that it will stand on.
+            kind: way to compute it, see ``KINDS``.
 
         Raises:
-            ValueError: an unknown kind.
+            ValueError: the kind is unknown.
         """
         if kind not in KINDS:
             raise ValueError(f"kind '{kind}' is not one of {', '.join(KINDS)}")
@@ -207,9 +208,9 @@ class PlantInC:
 
         Args:
             robot: the robot.
-            seed: of the sensors' noise.
-            coordinates: of the start, as ``start_coordinates`` gives them.
-            height: by which the trunk starts above that [m].
+            seed: seed of the sensors' noise.
+            coordinates: start coordinates, see ``start_coordinates``.
+            height: height by which the trunk starts above them [m].
             Ts: distance of the commands before the start [s].
         """
         ffi, _ = library()
@@ -223,15 +224,15 @@ def foot_mass(
 ) -> float:
     """Least apparent mass of any foot in any direction along the ground at the start [kg].
 
-    Force over acceleration of a foot that is pushed sideways, with the other feet free: 1 / the
-    largest eigenvalue of T' J M^-1 J' T, with J the Jacobian of the centre of the foot, T two unit
-    vectors along the ground and M the mass matrix (Khatib, 1987).
+    It is the force over the acceleration of a foot that is pushed sideways while the other feet are
+    free: 1 / the largest eigenvalue of T' J M^-1 J' T, with J the Jacobian of the centre of the
+    foot, T two unit vectors along the ground and M the mass matrix (Khatib, 1987).
 
     Args:
         robot: the robot.
-        numbers: its numbers, with payload and side offset.
+        numbers: numbers of the robot, with payload and side offset.
         ground: the ground.
-        coordinates: of the start, as ``start_coordinates`` gives them.
+        coordinates: start coordinates, see ``start_coordinates``.
     """
     _, lib = library()
     plant = PlantInC(robot, ground, "scalar")

@@ -1,4 +1,4 @@
-"""What may be wrong with a robot: payload, damage and sensors that lie."""
+"""Conditions of a robot that a study sets: payload, damage and sensor faults."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from apnc_core.in_python import in_python
 from apnc_plant.files import Number, checked, limits
 
 ALL: Final = "*"
-"""Stands for every leg of a robot."""
+"""Means every leg of a robot."""
 
 
 Halves = Annotated[Number, limits("1", ge=0.0), BeforeValidator(in_python)]
@@ -24,11 +24,12 @@ Stuck = Annotated[Mapping[str, Halves], AfterValidator(Frozen)]
 
 @checked(ValueError)
 class Conditions:
-    """The state of a robot that a study sets, on top of its description.
+    """What is wrong with a robot, or attached to it, on top of its description.
 
     Args:
-        payload: mass of a box on the trunk [kg]; fixed once a plant is built.
-        grf_noise: standard deviation of noise added to the sensors' own, halves of the weight [1].
+        payload: mass of a box on the trunk [kg]; it cannot change once a plant is built.
+        grf_noise: standard deviation of noise that is added to the sensors' own, in halves of the
+            weight [1].
         damaged: legs whose hip and knee are held at angle 0 of the reference pose.
         stuck: constant value that a stuck sensor reports, in halves of the weight [1], by leg.
         dropout: legs whose sensor reports 0; ``("*",)`` means every leg of any robot.
@@ -46,11 +47,14 @@ class Conditions:
     held_at: Annotated[Number, limits("m", ge=0.0)] | None = None
 
     def silent(self, legs: tuple[str, ...]) -> tuple[str, ...]:
-        """Which of a robot's legs have a sensor that delivers 0."""
+        """Legs whose sensor reports 0, out of a robot's legs."""
         return legs if self.dropout == (ALL,) else self.dropout
 
     def check_payload(self, built: float) -> None:
-        """Refuse another payload than a plant was built with [kg].
+        """Check that the payload is the one a plant was built with.
+
+        Args:
+            built: payload of the plant [kg].
 
         Raises:
             ValueError: it differs.
@@ -61,10 +65,13 @@ class Conditions:
             )
 
     def check_legs(self, legs: tuple[str, ...]) -> None:
-        """Refuse names of legs that the robot does not have.
+        """Check that a robot has all legs that are named.
+
+        Args:
+            legs: names of the robot's legs.
 
         Raises:
-            ValueError: an unknown leg.
+            ValueError: a leg is unknown.
         """
         for leg in (*self.damaged, *self.stuck, *self.silent(legs)):
             if leg not in legs:
@@ -75,7 +82,7 @@ PAYLOAD: Final = 1.25
 """Payload of condition C4 [kg]."""
 
 NOISE: Final = 0.2
-"""Added noise of condition C2, halves of the weight; the paper does not print its own."""
+"""Added noise of condition C2, in halves of the weight. The paper does not give its value."""
 
 CONDITIONS: Final[Mapping[str, Conditions]] = MappingProxyType(
     {
@@ -88,8 +95,11 @@ CONDITIONS: Final[Mapping[str, Conditions]] = MappingProxyType(
         "S3": Conditions(dropout=(ALL,)),
     }
 )
-"""Conditions of the paper by name: 3.1.4 (C1 normal, C2 noisy feedback, C3 leg damage, C4 payload)
-and 3.2 (S1 held in the air, S2 front sensors stuck, S3 feedback removed)."""
+"""Conditions of the paper by name.
+
+Section 3.1.4: C1 normal, C2 noisy feedback, C3 leg damage, C4 payload. Section 3.2: S1 held in the
+air, S2 front sensors stuck, S3 feedback removed.
+"""
 
 
 def named_conditions(name: str) -> Conditions:

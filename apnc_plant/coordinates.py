@@ -1,4 +1,4 @@
-"""Coordinates of the tree, the same for every engine."""
+"""Coordinates of the tree of joints, the same in all engines."""
 
 from __future__ import annotations
 
@@ -10,4 +10,4 @@ BASE: Final = 6
 """Coordinates of the floating base: x, y, z [m], yaw, pitch, roll [rad]; the joints follow."""
 
 JOINT_SIGN: Final = np.array([1.0, -1.0, -1.0])
-"""Tree coordinate per joint angle: the tree turns about +y, a leg that swings forward about -y."""
+"""Tree coordinate per joint angle: a positive one turns about +y, a leg swings forward about -y."""

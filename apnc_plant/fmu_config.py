@@ -1,4 +1,4 @@
-"""A robot as the header that its FMU is compiled with: every number that is no parameter."""
+"""A robot as a C header for its FMU: all numbers of the robot that are not parameters."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ HEADER: Final = "robot_config.h"
 
 
 def robot_config(robot: RobotDescription) -> bytes:
-    """``robot_config.h``.
+    """Text of ``robot_config.h`` for a robot.
 
     Args:
         robot: the robot.
 
     Raises:
-        ValueError: a number of the robot that its FMU does not take.
+        ValueError: a number of the robot is outside the range of its FMU.
     """
     trunk, field = robot.trunk, Obstacles()
     lines = [
@@ -101,7 +101,7 @@ def _condition(conditions: Conditions, robot: RobotDescription) -> str:
 
 
 def _initializer(value: Any) -> str:
-    """A value as C initialises it, without loss."""
+    """A value as a C initializer, without loss of digits."""
     if isinstance(value, dict):
         return _initializer(list(value.values()))
     if isinstance(value, list | tuple | np.ndarray):

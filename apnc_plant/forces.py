@@ -1,4 +1,4 @@
-"""The forces in C bound to one robot, one ground and its present condition, for other engines."""
+"""Forces on a robot, computed in C, for engines other than the plant in C."""
 
 from __future__ import annotations
 
@@ -17,17 +17,18 @@ from apnc_plant.robot.model import RobotDescription
 
 
 class RobotForces:
-    """What acts on the robot besides gravity: called by the engine once per step, by the
-    plant once per tick.
+    """All forces on a robot on a ground but gravity.
+
+    An engine calls them once per integration step, the plant once per tick.
 
     Attributes:
         target: commanded tree coordinates of the joints [rad], shape (3 n_legs,); written by the
             plant.
         step: length of the integration step [s], see :meth:`set_step`.
         foot_mass: apparent mass of a foot along the ground [kg]; written by the plant.
-        work: what every servo did since the start, |torque times speed| over time [J], shape
+        work: |torque times speed| of every servo, integrated over time since the start [J], shape
             (3 n_legs,).
-        result: all that :meth:`measure` found, flat: the four below.
+        result: flat results of :meth:`measure`: the four attributes below, one after the other.
         torque, foot, force, load: servo torques in tree coordinates [N m], foot centres [m],
             forces on the feet [N] (both world frame, flat) and sums of the normal forces [N].
     """
@@ -60,7 +61,7 @@ class RobotForces:
         self.work, self._work = shared(3 * n)
         self._pose, self._pose_in_c = shared(BASE)
         self._nobody = self._held = ffi.NULL
-        # three times as fast as making arrays of the lists, at every step
+        # packing the lists is three times as fast as making arrays of them
         both, self._q_in_c = shared(2 * size)
         self._v_in_c = self._q_in_c + size
         self._pack, self._both = struct.Struct(f"{2 * size}d").pack_into, both.data
@@ -74,11 +75,11 @@ class RobotForces:
         self.torque, self.foot, self.force, self.load = np.split(self.result, [3 * n, 6 * n, 9 * n])
 
     def set_step(self, step: float) -> None:
-        """Integrate with another step [s] from now on."""
+        """Set the length of the integration step from now on [s]."""
         self.step, self._stopping = step, step / self.foot_mass
 
     def hold(self, pose: Array | None) -> None:
-        """Hold the base at a pose (its six coordinates), or let it go."""
+        """Hold the base at a pose, its six coordinates; None releases it."""
         self._held = self._nobody if pose is None else self._pose_in_c
         if pose is not None:
             self._pose[:] = pose
@@ -86,7 +87,7 @@ class RobotForces:
     def __call__(
         self, mbs: Any, t: float, item: int, q: list[float], v: list[float]
     ) -> list[float]:
-        """Generalized forces, as Exudyn asks for them."""
+        """Generalized forces, with the arguments of a user function of Exudyn."""
         self._pack(self._both, 0, *q, *v)
         self._evaluate(self.step, self._acting_in_c)
         # Exudyn takes a list in half the time that it takes an array
@@ -96,8 +97,8 @@ class RobotForces:
     def acting(self, q: Array, v: Array) -> Array:
         """Generalized forces at the start of an integration step, shape (6 + 3 n_legs,).
 
-        Pitfall: the work of the servos during the step is added, so ask once per step; the array
-        is written anew at the next call.
+        Pitfall: a call adds the work of the servos during the step, so call it once per step. The
+        next call overwrites the array.
         """
         self._q[:], self._v[:] = q, v
         self._evaluate(self.step, self._acting_in_c)
@@ -125,9 +126,9 @@ class RobotForces:
     def fallen(self, q: Array) -> bool:
         """Whether the trunk is tipped by more than 60 degrees or touches the ground with a corner.
 
-        The tilt is the angle between its upright axis and the normal of the ground. On a steep
-        slope the trunk can point straight up or down before it is tipped that far; there yaw and
-        roll of the tree are one, so that it counts as fallen 10 degrees earlier.
+        The tilt is the angle between the trunk's upright axis and the normal of the ground. On a
+        steep slope the trunk may point straight up or down before it is tipped that far. There yaw
+        and roll have the same axis, so a fall counts 10 degrees before the trunk points that way.
 
         Args:
             q: coordinates of the tree; the first six count.
@@ -139,9 +140,9 @@ class RobotForces:
         return bool(found)
 
     def check(self) -> None:
-        """Tell what went wrong in the touch function of a ground of one's own.
+        """Raise an error that occurred in the touch function of a ground of one's own.
 
         Raises:
-            ValueError: it raised an error.
+            ValueError: the touch function raised an error since the last check.
         """
         self._ground.check()

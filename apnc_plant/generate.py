@@ -32,7 +32,7 @@ _C_GROUP: Final = {
 
 
 def start_macro(v: Variable) -> str:
-    """Name by which the configuration of a build gives the start value of a robot's own number."""
+    """Macro that holds the start value of a variable which is a number of the robot."""
     return f"ROBOT_{v.identifier.upper()}"
 
 

@@ -1,4 +1,4 @@
-"""Where the joints and feet of a robot are."""
+"""Positions of the joints and feet of a robot."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from apnc_plant.robot.model import RobotDescription
 
 
 class Kinematics:
-    """The legs of a robot at any joint angles.
+    """Positions of the legs of a robot at any joint angles.
 
     Args:
         robot: the robot.

@@ -1,4 +1,4 @@
-"""A legged robot on the ground, stepped from one control tick to the next, in any engine."""
+"""The plant in any engine: a legged robot on the ground, stepped by control ticks."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ from apnc_plant.start import start_coordinates
 from apnc_plant.trace import Trace
 
 NOW: Final = 1e-6
-"""Part of a tick within which two moments are one."""
+"""Part of a tick within which two moments count as one."""
 
 
 @dataclass(frozen=True)
 class Setup:
-    """What an engine builds the equations of motion of.
+    """Everything that an engine needs to build the equations of motion.
 
     Args:
         robot: the robot.
-        trunk: mass properties of its trunk with what it carries.
-        ground: what it stands on.
+        trunk: mass properties of its trunk with the payload.
+        ground: the ground.
         options: start and integration.
         start: initial coordinates, shape (6 + 3 n_legs,), see ``coordinates``.
-        forces: everything that acts besides gravity.
+        forces: all forces but gravity.
     """
 
     robot: RobotDescription
@@ -50,27 +50,27 @@ class Setup:
 
 
 class Engine(Protocol):
-    """The equations of motion of one robot at rest in its start, integrated step by step."""
+    """The equations of motion of one robot, which starts at rest, and their integrator."""
 
     name: ClassVar[str]
 
     def __init__(self, setup: Setup) -> None:
-        """Build them.
+        """Build the equations of motion.
 
         Raises:
             PlantError: the engine refused the model.
         """
 
     def advance(self, end: float, steps: int, q: Array, v: Array) -> bool:
-        """Integrate in equal steps, whose length the forces know already.
+        """Integrate in equal steps, whose length the forces have already.
 
         Args:
             end: time to integrate to [s].
             steps: number of steps.
-            q, v: coordinates and speeds, written here, shape (6 + 3 n_legs,).
+            q, v: arrays for the resulting coordinates and speeds, shape (6 + 3 n_legs,).
 
         Returns:
-            Whether it could.
+            False if the motion diverged.
         """
 
     def mass_matrix(self) -> Array:
@@ -78,10 +78,10 @@ class Engine(Protocol):
 
 
 class LeggedPlant:
-    """One robot in an engine of its own.
+    """One robot in an engine.
 
-    It stands parallel to the ground with its feet just above it, at rest. The same robot, seed,
-    ground, conditions and commands give the same motion bit for bit.
+    At the start the robot is at rest and parallel to the ground, with its feet just above it. The
+    same robot, seed, ground, conditions and commands give the same motion bit for bit.
 
     Attributes:
         n_legs: number of legs.
@@ -108,12 +108,12 @@ class LeggedPlant:
             seed: chooses the sideways error of the centre of mass and the sensor noise,
                 0 to 2^64 - 1.
             options: start and integration.
-            ground: what it stands on; level and smooth if omitted.
-            conditions: payload, damage and the like; none if omitted.
+            ground: the ground; level and smooth if omitted.
+            conditions: payload, damage and sensor faults; none if omitted.
 
         Raises:
-            ValueError: conditions name a leg the robot does not have, another seed, or a ground
-                that the feet do not fit.
+            ValueError: conditions name a leg the robot does not have, the seed is not allowed, or
+                the ground does not take feet of this radius.
             PlantError: the engine refused the model.
         """
         self._robot, self._options = robot, options or PlantOptions()
@@ -149,10 +149,10 @@ class LeggedPlant:
         self._measure()
 
     def set_conditions(self, conditions: Conditions) -> None:
-        """Change what is wrong with the robot, from now on.
+        """Set the conditions that hold from now on.
 
         Raises:
-            ValueError: an unknown leg, or another payload than the plant was built with.
+            ValueError: a leg is unknown, or the payload is not the one the plant was built with.
         """
         conditions.check_legs(self.legs)
         conditions.check_payload(self._conditions.payload)
@@ -217,17 +217,19 @@ class LeggedPlant:
         return self._forces.load.copy()
 
     def _before_the_start(self, Ts: float) -> deque[tuple[float, Array]]:
-        """Commands under way at the start: the servos were told the start pose once a tick, so
-        every tick is cut where a command arrives, the first ones too."""
+        """Delayed commands at the start: before it, the start pose was commanded once per tick.
+
+        With them the first ticks, too, are divided at the moments at which commands arrive.
+        """
         ages = range(math.ceil(self._robot.servo.latency / Ts * (1.0 - NOW)) - 1, 0, -1)
         pose = self._commanded * JOINT_SIGN
         return deque((self._robot.servo.latency - age * Ts, pose) for age in ages)
 
     def _integrate_tick(self, coming: deque[tuple[float, Array]], duration: float) -> None:
-        """Integrate a tick, in which commands that are under way reach the servos.
+        """Integrate a tick; the commands whose latency has passed reach the servos.
 
         Args:
-            coming: time from now to the arrival of each command [s], and the command.
+            coming: delayed commands, each with the time until it arrives [s].
             duration: length of the tick [s].
         """
         start, done = self.time, 0.0
@@ -255,7 +257,7 @@ class LeggedPlant:
         self._forces.measure(self._q, self._v)
 
     def trace(self) -> Trace:
-        """A recorder of every signal in ``PLANT_SIGNALS``, a row per tick."""
+        """A recorder of every signal in ``PLANT_SIGNALS``, with one sample per tick."""
         return Trace(self._parts, self._signals)
 
     def sample(self) -> dict[str, Array]:
@@ -267,10 +269,10 @@ class LeggedPlant:
     def _parts(self) -> tuple[Array, ...]:
         return (self._q, self._v, self._forces.result, self._forces.work, self._reading)
 
-    def _signals(self, rows: Array) -> dict[str, Array]:
+    def _signals(self, samples: Array) -> dict[str, Array]:
         n, size = self.n_legs, BASE + 3 * self.n_legs
         ends = np.cumsum([size, size, 3 * n, 3 * n, 3 * n, n, 3 * n])
-        q, v, torque, foot, force, _, work, reading = np.split(rows, ends, axis=1)
+        q, v, torque, foot, force, _, work, reading = np.split(samples, ends, axis=1)
 
         def per_leg(values: Array) -> Array:
             return values.reshape(-1, n, 3)

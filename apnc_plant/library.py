@@ -1,4 +1,4 @@
-"""The robot in C, as its header declares it: the one copy of its laws, for every engine."""
+"""The plant in C as a library of Python. It holds the only copy of its laws, for all engines."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _loaded: list[tuple[Any, Any]] = []
 def library() -> tuple[Any, Any]:
     """cffi's ``ffi``, which makes C data, and ``lib``, which has the functions and constants.
 
-    Loaded at the first call; compiled before that where it did not come with the package. While a
-    C function runs, other threads of Python run too.
+    The library is loaded at the first call. If the package has none for this machine, it is
+    compiled first. Other threads of Python run while a C function runs.
 
     Raises:
-        ValueError: no library for this machine came with the package, and none can be built.
-        OSError: it cannot be loaded, or the cache folder cannot be written.
+        ValueError: the package has no library for this machine, and none can be built.
+        OSError: the library cannot be loaded, or the cache folder cannot be written.
     """
     if not _loaded:
         with _LOCK:
@@ -39,16 +39,16 @@ def _load() -> tuple[Any, Any]:
 
 
 def declarations(header: str) -> str:
-    """Plain C of a header: without preprocessor lines and without what is for C++ alone."""
+    """Declarations of a header, without preprocessor lines and without parts for C++ alone."""
     plain = re.sub(r"(?ms)^#ifdef __cplusplus$.*?^#endif$", "", header)
     return re.sub(r"(?m)^#.*$", "", plain)
 
 
 def aligned_memory(size: int) -> tuple[Any, Any]:
-    """Zeroed bytes for a plant: where they begin, at a multiple of 64, and what owns them.
+    """Zeroed bytes for a plant: a pointer that is a multiple of 64, and the object that owns them.
 
     Args:
-        size: how many; 0 is what C answers where there is no such plant.
+        size: number of bytes; C returns 0 if no such plant is possible.
 
     Raises:
         ValueError: the size is 0.

@@ -1,4 +1,4 @@
-"""Robots and conditions as the numbers that the plant in C reads."""
+"""Robots and conditions as structs of the plant in C."""
 
 from __future__ import annotations
 
@@ -21,10 +21,11 @@ from apnc_plant.robot.model import (
 )
 
 SUSPENSION: Final = (5000.0, 200.0, 50.0, 2.0)
-"""Of a held trunk: position [N/m], [N s/m], rotation [N m/rad], [N m s/rad].
+"""Suspension of a held trunk: stiffness and damping of its position [N/m], [N s/m], then of its
+rotation [N m/rad], [N m s/rad].
 
-Close to critically damped for a robot of some kilograms, and stiff enough that legs swinging in
-the air move it by tenths of a millimetre.
+For a robot of some kilograms it is close to critically damped, and so stiff that legs swinging in
+the air move the trunk by tenths of a millimetre only.
 """
 
 
@@ -33,7 +34,7 @@ class Numbers(NamedTuple):
 
     Args:
         at: pointer to the struct, which lives as long as this object.
-        kept: what the struct points to.
+        kept: the arrays, which must live as long as the pointer.
     """
 
     at: Any
@@ -74,7 +75,7 @@ def robot_numbers(
 
 
 def _loaded(trunk: Trunk, side_offset: float, payload: float) -> Any:
-    """As ``Trunk.loaded``, by the functions that a robot's FMU calls: the bits are the same."""
+    """As ``Trunk.loaded``, by the functions of the robot's FMU, so that the bits are the same."""
     ffi, lib = library()
     own, box = ffi.new("plant_body *"), ffi.new("plant_body *")
     (x, y, z), size = trunk.com, trunk.size
@@ -99,9 +100,8 @@ def leg_numbers(leg: Leg) -> dict[str, Any]:
 
 
 def _body(body: MassProperties) -> dict[str, Any]:
-    rows = body.inertia
-    places = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-    inertia = [float(rows[place]) for place in places]
+    entries = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    inertia = [float(body.inertia[entry]) for entry in entries]
     return {"mass": float(body.mass), "com": [float(x) for x in body.com], "inertia": inertia}
 
 
@@ -141,12 +141,12 @@ def sensor_numbers(sensor: Sensor) -> dict[str, float | int]:
 
 
 def conditions_numbers(conditions: Conditions, legs: tuple[str, ...], weight: float) -> Numbers:
-    """Conditions as ``plant_conditions``; the payload is the robot's.
+    """Conditions as ``plant_conditions``; the payload is part of the numbers of the robot.
 
     Args:
         conditions: the conditions.
         legs: names of the robot's legs.
-        weight: of the robot without payload [N].
+        weight: weight of the robot without payload [N].
     """
     ffi, _ = library()
     delivered = {leg: value * weight / 2.0 for leg, value in conditions.stuck.items()}

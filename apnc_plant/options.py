@@ -1,4 +1,4 @@
-"""How a plant is started and integrated."""
+"""Options of a plant: start and integration."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ from apnc_plant.robot.model import GRAVITY
 
 @checked(ValueError)
 class PlantOptions:
-    """How a plant is started and integrated.
+    """Start and integration of a plant.
 
     Args:
-        step: longest integration step [s]; a tick is cut into equal steps of at most this. The
-            default, 16 steps per tick at 60 Hz, is what the step-size study picked.
+        step: longest integration step [s]; a tick is divided into equal steps of at most this.
         gravity: downward acceleration [m/s^2].
         clearance: height of the lowest foot above the ground at the start [m].
         start_hip, start_knee: joint angles of every leg at the start, relative to the reference

@@ -1,4 +1,4 @@
-"""What the master needs of a robot; any engine, or another FMU, can stand behind it."""
+"""Interface of a plant; an engine or another FMU can implement it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["Plant", "PlantError"]
 
 
 class Plant(Protocol):
-    """A robot at its start; ``exudyn_models.plant.Plant`` is one."""
+    """A robot on a ground, ready to be stepped; ``apnc_plant.compiled.Plant`` is one."""
 
     @property
     def legs(self) -> tuple[str, ...]:
@@ -25,19 +25,19 @@ class Plant(Protocol):
 
     @property
     def fell(self) -> bool:
-        """Whether the robot lies or has tipped over."""
+        """Whether the robot has fallen."""
 
     def grf(self) -> Array:
-        """Load of each foot as its sensor shows it now [N], shape (n_legs,)."""
+        """Load of each foot as its sensor delivers it now [N], shape (n_legs,)."""
 
     def set_conditions(self, conditions: Conditions) -> None:
-        """Change what is wrong with the robot, from now on."""
+        """Set the conditions that hold from now on."""
 
     def advance(self, theta_hip: Array, theta_knee: Array, duration: float) -> None:
         """Follow joint commands [rad], shape (n_legs,), for a time [s].
 
         Raises:
-            PlantError: the motion broke down.
+            PlantError: the motion diverged.
         """
 
     def trace(self) -> Trace:

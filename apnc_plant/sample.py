@@ -1,4 +1,4 @@
-"""Samples and records of the plant in C, split into signals by name."""
+"""Splits samples and records of the plant in C into signals by name."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from apnc_plant.signals import PLANT_SIGNALS
 
 
 def sample_size(n_legs: int) -> int:
-    """Numbers in a sample, as ``plant_sample_size`` in C says."""
+    """Count of numbers in a sample, the same as ``plant_sample_size`` in C."""
     return sum(math.prod(signal.shape(n_legs)) for signal in PLANT_SIGNALS)
 
 
-def sample_signals(rows: Array, n_legs: int) -> dict[str, Array]:
+def sample_signals(samples: Array, n_legs: int) -> dict[str, Array]:
     """Signals of samples as ``plant_sample`` writes them.
 
     Args:
-        rows: a sample each, shape (samples, 9 + 19 n_legs).
+        samples: one sample per row of the array, shape (samples, 9 + 19 n_legs).
         n_legs: number of legs.
 
     Returns:
@@ -27,18 +27,18 @@ def sample_signals(rows: Array, n_legs: int) -> dict[str, Array]:
     for signal in PLANT_SIGNALS:
         shape = signal.shape(n_legs)
         end = at + math.prod(shape)
-        found[signal.name] = rows[:, at:end].reshape(-1, *shape).copy()
+        found[signal.name] = samples[:, at:end].reshape(-1, *shape).copy()
         at = end
     return found
 
 
 def record_signals(samples: Array, ticks: int, count: int, n_legs: int) -> dict[str, Array]:
-    """The signals of a record that C wrote, as views into it.
+    """Signals of a record that C wrote, as views into it.
 
     Args:
-        samples: the signals one after the other, each of ``ticks`` times its size, shape (any,).
-        ticks: samples there is room for.
-        count: samples that were taken.
+        samples: the signals one after the other, each with ``ticks`` times its size, shape (any,).
+        ticks: number of samples that the record has room for.
+        count: number of samples that were taken.
         n_legs: number of legs.
 
     Returns:

@@ -1,4 +1,4 @@
-"""What a plant shows at every tick: names, units and signs, the same for every engine."""
+"""Signals that a plant delivers at every tick: names, units and signs, the same in all engines."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ JOINT_SIGNS: Final = {
     "hip": "swings the foot forward",
     "knee": "lifts the foot",
 }
-"""What a positive angle of each joint does."""
+"""Effect of a positive angle of each joint."""
 
 JOINTS: Final = tuple(JOINT_SIGNS)
 WORLD: Final = "world: x forward at the start, y to the left, z up"
 
 
 class PlantError(RuntimeError):
-    """The motion broke down."""
+    """The motion diverged, or an engine refused the model."""
 
 
 @dataclass(frozen=True)
 class Signal:
-    """One quantity.
+    """One quantity over time.
 
     Args:
-        name: its name.
-        unit: its unit.
-        description: what it is.
+        name: name in samples and records.
+        unit: unit.
+        description: what the quantity is.
         frame: frame of its components; empty if it has none.
-        per_leg: one entry per leg, in the order of the robot's legs.
+        per_leg: True: it has one entry per leg, in the order of the robot's legs.
         components: names of the entries of a vector; empty for a scalar.
-        sign: what a positive value means; empty if the frame says it.
+        sign: meaning of a positive value; empty if the frame defines it.
     """
 
     name: str

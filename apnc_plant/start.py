@@ -1,4 +1,4 @@
-"""Where a robot starts."""
+"""Start coordinates of a robot."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from apnc_plant.options import PlantOptions
 
 
 def start_coordinates(robot: Numbers, ground: GroundInC, options: PlantOptions) -> Array:
-    """Coordinates of a robot over the origin, parallel to the ground, its feet just above it.
+    """Coordinates of a robot over the origin, parallel to the ground, with its feet just above it.
 
     Args:
         robot: the robot.
-        ground: the ground; what is high under the feet lifts the robot.
+        ground: the ground; the robot is lifted if the ground is higher under its feet.
         options: joint angles at the start and height of the lowest foot.
 
     Returns:

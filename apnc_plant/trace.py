@@ -1,4 +1,4 @@
-"""Rows of numbers taken once per tick: cheap while the robot walks, split by name afterwards."""
+"""Records a sample at every tick at low cost, and splits the samples into signals afterwards."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from apnc_core.types import Array
 Split = Callable[[Array], Mapping[str, Array]]
 
 CHUNK: Final = 1024
-"""Rows allocated at a time."""
+"""Number of samples allocated at a time."""
 
 
 class Trace:
-    """A table with one row per tick, which grows as it goes.
+    """Samples, one per tick; their number grows.
 
     Args:
-        parts: arrays whose entries, one after the other, are a row; read anew at every tick.
-        split: makes signals of rows of shape (ticks, width), row by row.
+        parts: arrays that together make a sample; they are read anew at every tick.
+        split: splits samples, shape (ticks, width), into signals.
     """
 
     def __init__(self, parts: Sequence[Array], split: Split) -> None:
@@ -33,27 +33,27 @@ class Trace:
         return self._length
 
     def take(self) -> None:
-        """Append what the parts hold now."""
-        place = self._length % CHUNK
-        if place == 0:
+        """Append a sample: the values that the parts hold now."""
+        entry = self._length % CHUNK
+        if entry == 0:
             self._chunks.append(np.empty((CHUNK, self._width)))
-        np.concatenate(self._parts, out=self._chunks[-1][place])
+        np.concatenate(self._parts, out=self._chunks[-1][entry])
         self._length += 1
 
     def signals(self) -> dict[str, Array]:
-        """Everything taken, by name, ticks along the first axis; (0, ...) if nothing was taken."""
+        """All samples by signal, ticks along the first axis; shape (0, ...) if there are none."""
         empty = self._split(np.empty((0, self._width)))
         signals = {
             name: np.empty((self._length, *like.shape[1:]), like.dtype)
             for name, like in empty.items()
         }
-        # One chunk at a time: rows and signals are both in memory, and little else.
-        for start, rows in self._rows():
-            for name, values in self._split(rows).items():
-                signals[name][start : start + len(rows)] = values
+        # One chunk at a time, so that little else than samples and signals is in memory.
+        for start, samples in self._samples():
+            for name, values in self._split(samples).items():
+                signals[name][start : start + len(samples)] = values
         return signals
 
-    def _rows(self) -> Iterator[tuple[int, Array]]:
+    def _samples(self) -> Iterator[tuple[int, Array]]:
         for index, chunk in enumerate(self._chunks):
             start = index * CHUNK
             yield start, chunk[: self._length - start]

@@ -162,7 +162,7 @@ PARTS: Final = ("servo", "contact", "sensor")
 
 
 def _outputs(signal: Signal) -> list[Variable]:
-    """Rows of a signal: one per component, with an entry per leg."""
+    """Variables of a signal: one per component, with an entry per leg."""
     names = [f"{signal.name}.{c}" for c in signal.components] or [signal.name]
     description = "; ".join(filter(None, (signal.description, signal.frame, signal.sign)))
     return [

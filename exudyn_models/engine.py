@@ -1,4 +1,4 @@
-"""Exudyn, loaded at its first use: the fast build, without greeting and warning."""
+"""Exudyn, loaded at its first use, in its fast build and without messages on stdout."""
 
 from __future__ import annotations
 
@@ -12,14 +12,13 @@ from typing import Any
 
 @cache
 def exu() -> Any:
-    """The module; untyped, since the stubs Exudyn ships contradict its signatures.
+    """The module. It is untyped because its type stubs contradict its signatures.
 
-    Pitfall: what other threads print during the first call is lost.
+    Pitfall: output that other threads print during the first call is lost.
     """
-    # Exudyn reads this flag at its first import only; the build without range checks is 1.4x
-    # faster.
+    # Exudyn reads this flag at its first import only; the build without range checks is faster
     vars(sys).setdefault("exudynFast", True)
-    # What it says then belongs to nobody: stdout is that of the program that uses this package.
+    # stdout belongs to the program that uses this package, so Exudyn's messages are dropped
     with contextlib.redirect_stdout(io.StringIO()):
         exudyn = importlib.import_module("exudyn")
         _take_a_step(exudyn)
@@ -28,16 +27,16 @@ def exu() -> Any:
 
 @cache
 def items() -> Any:
-    """Classes of the items that a system is made of."""
+    """Module with the classes of the items of a system."""
     exu()
     return importlib.import_module("exudyn.itemInterface")
 
 
 def _take_a_step(exudyn: Any) -> None:
-    """Integrate nothing for a step.
+    """Integrate an empty system for one step.
 
-    At its first step in a process, and only then, Velocity Verlet says on stdout that it is under
-    development. An empty system has nothing else to say.
+    At the first step in a process, Velocity Verlet prints on stdout that it is under development.
+    This call makes it print that before the first walk.
     """
     settings = exudyn.SimulationSettings()
     settings.timeIntegration.solverType = exudyn.DynamicSolverType.VelocityVerlet

@@ -1,4 +1,4 @@
-"""A legged robot in Exudyn."""
+"""The plant in Exudyn."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class ExudynTree(Engine):
     def __init__(self, setup: Setup) -> None:
         """Assemble the system; see ``Engine``."""
         options, self._forces = setup.options, setup.forces
-        # The container owns the system: without this reference Exudyn frees it.
+        # The container owns the system; without this reference Exudyn would free it.
         self._container = exu().SystemContainer()
         self.mbs: Any = self._container.AddSystem()
         self.tree = add_tree(

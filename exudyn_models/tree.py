@@ -23,7 +23,7 @@ Forces = Callable[[Any, float, int, list[float], list[float]], list[float]]
 
 @dataclass
 class _Links:
-    """Rows of the tree as they are collected, one entry per coordinate."""
+    """Lists that describe the links of the tree, with one entry per coordinate."""
 
     types: list[Any] = field(default_factory=list)
     parents: list[int] = field(default_factory=list)
@@ -64,10 +64,10 @@ def add_tree(
     Args:
         mbs: the system.
         robot: the robot.
-        trunk: mass properties of the trunk with what it carries.
+        trunk: mass properties of the trunk with the payload.
         gravity: downward acceleration [m/s^2].
         start: initial coordinates, shape (6 + 3 n_legs,), see ``coordinates``.
-        forces: called by Exudyn for the generalized forces besides gravity.
+        forces: function that Exudyn calls for all generalized forces but gravity.
     """
     links = _Links()
     base = _add_base(links, trunk)
@@ -101,7 +101,7 @@ def _add_leg(links: _Links, leg: Leg, trunk: int) -> None:
     for link in links_of(leg):
         about_x = link.axis[0] != 0.0
         joint = kind.RevoluteX if about_x else kind.RevoluteY
-        at = links.add(joint, at, link.place, link.pitch, link.body)
+        at = links.add(joint, at, link.position, link.pitch, link.body)
 
 
 def _tree_object(links: _Links, node: Any, gravity: float, forces: Forces) -> Any:

@@ -1,1 +1,1 @@
-"""The same robots in MuJoCo: another engine behind the plant, and MJCF for anybody else."""
+"""The robots in MuJoCo: an engine for the plant, and export as MJCF for other programs."""

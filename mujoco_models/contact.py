@@ -1,4 +1,4 @@
-"""MuJoCo's own contact, set so that it is the spring, damper and friction of the robot file."""
+"""Parameters that give MuJoCo's own contact the stiffness, damping and friction of a robot file."""
 
 from __future__ import annotations
 
@@ -7,23 +7,28 @@ from typing import Final, NamedTuple
 from apnc_plant.robot.model import RobotDescription
 
 REGULARISING_MASS: Final = 0.01
-"""1/R of the normal direction [kg], see :func:`pair_of`: small beside a foot with its rotors."""
+"""1/R of the normal direction [kg], see :func:`pair_of`. It is small against the mass of a foot."""
 
 IMPRATIO: Final = 100.0
-"""R of the normal direction over R along the ground."""
+"""R of the normal direction over R along the ground [1]."""
 
 
 STEP: Final = 1.0 / 1920.0
-"""Integration step of an exported robot [s]; at twice that its contact is 21 % off in force."""
+"""Integration step of an exported robot [s]. A longer step falsifies the contact force."""
 
 GEOM_MASS: Final = 0.5
-"""1/R of a foot on any other geom, at least, over the mass that the foot has there, see
+"""Least 1/R of a foot on any other geom, over the apparent mass of the foot, see
 :func:`geom_of`."""
 
 
 class Pair(NamedTuple):
-    """Parameters of a contact pair: impedance d, and (stiffness, damping) of the reference
-    acceleration along the normal and along the ground."""
+    """Parameters of a contact pair.
+
+    Args:
+        impedance: d [1].
+        normal: stiffness and damping of the reference acceleration along the normal.
+        along: the same along the ground.
+    """
 
     impedance: float
     normal: tuple[float, float]
@@ -31,8 +36,13 @@ class Pair(NamedTuple):
 
 
 class Geom(NamedTuple):
-    """Parameters of a contact without a pair: impedance d, and (stiffness, damping) of the
-    reference acceleration along the normal, which MuJoCo takes along the ground, too."""
+    """Parameters of a contact that is no pair.
+
+    Args:
+        impedance: d [1].
+        normal: stiffness and damping of the reference acceleration along the normal; MuJoCo uses
+            the same along the ground.
+    """
 
     impedance: float
     normal: tuple[float, float]
@@ -43,14 +53,14 @@ def pair_of(robot: RobotDescription, admittance: float) -> Pair:
 
     MuJoCo finds f from a + R f = a_ref, with a the acceleration at the contact,
     a_ref = -b v - d k r, R = A (1 - d) / d and A the admittance (its documentation, 'Solver
-    parameters'). So f = (d k r + b v + a) (-1/R): with 1/R small the last term, a mass of 1/R that
-    hangs on the foot, does not count, and k and b follow from the wanted stiffness and damping.
-    Along the ground R is smaller by ``IMPRATIO``; the damping there is that of the robot file's
-    friction under a foot that carries half the weight, mu m g / (2 v_reg).
+    parameters'). So f = (d k r + b v + a) (-1/R). The last term acts like a mass of 1/R attached to
+    the foot; 1/R is chosen so small that it does not matter. k and b then follow from the wanted
+    stiffness and damping. Along the ground R is smaller by ``IMPRATIO``. The damping there is that
+    of the robot file's friction under a foot that carries half the weight, mu m g / (2 v_reg).
 
-    Pitfall: with the damping of the normal direction along the ground as well, a foot that slides
-    at v gets an extra normal force of mu b v / R, hundreds of N s/m, since MuJoCo projects on the
-    cone in the metric of R.
+    Pitfall: if the damping of the normal direction held along the ground as well, a foot that
+    slides at v would get a large extra normal force, mu b v / R, because MuJoCo projects on the
+    friction cone in the metric of R.
 
     Args:
         robot: the robot.
@@ -63,12 +73,12 @@ def pair_of(robot: RobotDescription, admittance: float) -> Pair:
 
 
 def geom_of(robot: RobotDescription, admittance: float) -> Geom:
-    """Parameters of a foot on whatever is no pair with it.
+    """Parameters of a foot on any geom that forms no pair with it.
 
-    They give the stiffness of the robot file, too. Only a pair can say the damping along the
-    ground; here it is ``IMPRATIO`` times that of the normal, and with the small 1/R of a pair the
-    foot would chatter: the friction of a step changes its speed by more than the speed there is.
-    So 1/R, the mass that hangs on the foot while it touches, is large enough for the step.
+    The stiffness is again that of the robot file. Only a pair can set the damping along the ground
+    by itself; here it is ``IMPRATIO`` times that along the normal. With the small 1/R of a pair the
+    foot would chatter, because the friction in one step would more than reverse its sliding speed.
+    So 1/R, which acts like a mass attached to the foot, is made large enough for the step.
 
     Args:
         robot: the robot.
@@ -83,5 +93,5 @@ def _along_normal(
 ) -> tuple[float, tuple[float, float]]:
     """Impedance, stiffness and damping, given 1/R [kg]."""
     d = mass * admittance / (1.0 + mass * admittance)
-    # MuJoCo divides k by d^2 and b by d before it takes them
+    # MuJoCo divides k by d^2 and b by d before it uses them
     return d, (d * robot.contact.stiffness / mass, d * robot.contact.damping / mass)

@@ -9,5 +9,5 @@ from typing import Any
 
 @cache
 def mj() -> Any:
-    """The module; untyped, since what its stubs say differs from version to version."""
+    """The module. It is untyped because its type stubs differ between versions."""
     return importlib.import_module("mujoco")

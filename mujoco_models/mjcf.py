@@ -1,4 +1,4 @@
-"""Robots as MJCF text, MuJoCo's format; nothing of MuJoCo is needed to write it."""
+"""Robots as MJCF text, the format of MuJoCo. MuJoCo itself is not needed to write it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from apnc_plant.start import start_coordinates
 from mujoco_models.contact import IMPRATIO, STEP, Geom, geom_of, pair_of
 
 SERVOS: Final = ("position", "dcmotor")
-"""How the servos are written, see :func:`robot_mjcf`."""
+"""Ways to write the servos, see :func:`robot_mjcf`."""
 
 _BASE: Final = (
     ("slide", "x", "1 0 0"),
@@ -38,12 +38,12 @@ _add = ElementTree.SubElement
 def tree_mjcf(robot: RobotDescription, trunk: MassProperties) -> str:
     """The robot in the coordinates of ``apnc_plant.coordinates``, for our own plant.
 
-    The base has three slides and three hinges, hip and knee turn about +y, and there are neither
-    actuators nor ground: all forces come from outside.
+    The base has three slides and three hinges, and hip and knee turn about +y. The model has
+    neither actuators nor a ground: the plant computes all forces.
 
     Args:
         robot: the robot.
-        trunk: mass properties of its trunk with what it carries.
+        trunk: mass properties of its trunk with the payload.
     """
     root, body = _model(robot)
     for kind, name, axis in _BASE:
@@ -57,29 +57,29 @@ def tree_mjcf(robot: RobotDescription, trunk: MassProperties) -> str:
 def robot_mjcf(
     robot: RobotDescription, admittances: Sequence[float], *, servo: str = "position"
 ) -> str:
-    """The robot for other users: free base, servos, sensors, a level ground and something to see.
+    """The robot for other programs: free base, servos, sensors, a level ground and visible shapes.
 
     Joint angles, their signs and the reference pose are ours, see ``apnc_plant.signals``. In the
-    keyframe ``stand`` all joints are at 0 and the lowest foot touches the ground. Trunk, hip and
-    femur links touch as their boxes whatever is in the scene, but not each other.
+    keyframe ``stand`` all joints are at 0 and the lowest foot touches the ground. The boxes of
+    trunk, hip and femur links collide with everything in the scene but with each other.
 
     Args:
         robot: the robot, with plain names.
-        admittances: A of every foot, MuJoCo's ``body_invweight0`` [1/kg], which the numbers of
-            its contact hang on.
-        servo: ``position`` for MuJoCo of any age: stiffness, damping and stall torque, but the
-            line from stall torque to no-load speed is a mere number in ``custom``; or ``dcmotor``
-            for MuJoCo 3.12 and newer, which has that line too.
+        admittances: A of every foot, MuJoCo's ``body_invweight0`` [1/kg]; the parameters of its
+            contact depend on it.
+        servo: ``position`` works in every MuJoCo and has stiffness, damping and stall torque, but
+            the no-load speed is only noted in ``custom``. ``dcmotor`` needs MuJoCo 3.12 and also
+            has the line from stall torque to no-load speed.
 
     Raises:
-        ValueError: an unknown servo.
+        ValueError: the servo is unknown.
     """
     if servo not in SERVOS:
         raise ValueError(f"servo '{servo}' is not one of {', '.join(SERVOS)}")
     root, body = _model(robot)
     ground, start = GroundInC(Plane(), robot.contact.foot_radius), PlantOptions()
-    place = _numbers(start_coordinates(robot_numbers(robot), ground, start)[:3])
-    body.set("pos", place)
+    start_position = _numbers(start_coordinates(robot_numbers(robot), ground, start)[:3])
+    body.set("pos", start_position)
     _add(body, "freejoint", name="base")
     trunk = robot.trunk
     _inertial(body, trunk.loaded(0.0, 0.0))
@@ -91,7 +91,7 @@ def robot_mjcf(
     _actuators(root, robot, servo)
     _sensors(root, robot)
     at_rest = _numbers([0.0] * len(joints_of(robot)))
-    stand = {"qpos": f"{place} 1.0 0.0 0.0 0.0 {at_rest}", "ctrl": at_rest}
+    stand = {"qpos": f"{start_position} 1.0 0.0 0.0 0.0 {at_rest}", "ctrl": at_rest}
     _add(_add(root, "keyframe"), "key", stand, name="stand")
     return _text(root)
 
@@ -124,13 +124,13 @@ def _model(robot: RobotDescription) -> tuple[Element, Element]:
 
 
 def _leg(trunk: Element, leg: Leg, robot: RobotDescription, foot: Geom | None = None) -> None:
-    """A leg, for other users if its foot touches, else for our own plant."""
+    """A leg: with contact parameters of its foot for other programs, without for our own plant."""
     at = trunk
     for link, box in zip(links_of(leg), (leg.hip, leg.femur, leg.tibia), strict=True):
         turn = (cos(link.pitch / 2.0), 0.0, sin(link.pitch / 2.0), 0.0)
         at = _add(
             at, "body", name=f"{leg.name}_{link.name}",
-            pos=_numbers(link.place), quat=_numbers(turn),
+            pos=_numbers(link.position), quat=_numbers(turn),
         )  # fmt: skip
         joint = _add(
             at, "joint", name=f"{leg.name}_{link.joint}",
@@ -141,22 +141,22 @@ def _leg(trunk: Element, leg: Leg, robot: RobotDescription, foot: Geom | None = 
         if foot:
             joint.set("range", _numbers(JOINT_RANGE))
             joint.set("actuatorfrcrange", _numbers(_within(robot.servo.stall_torque)))
-            # the edges of a tibia's box would touch beside the ball
+            # the box of a tibia must not collide: its edges would touch beside the ball
             touch = _UNTOUCHED if box is leg.tibia else _TOUCHING
             _box(at, leg.outward(box.com), box.size, touch)
     ball = {"pos": _numbers((0.0, 0.0, -leg.tibia_length)), "type": "sphere"}
     radius = repr(robot.contact.foot_radius)
     touch = {**_TOUCHING, "priority": "1", **_contact(robot, *foot)} if foot else _UNTOUCHED
     _add(at, "geom", ball, name=foot_of(leg), size=radius, rgba=_RUBBER, **touch)
-    # the load sensor sums the contacts inside its site: a little more than the ball itself
+    # the load sensor sums the contacts inside its site, so the site is larger than the ball
     size = repr(1.5 * robot.contact.foot_radius)
     _add(at, "site", ball, name=foot_of(leg), size=size, rgba="0 0 0 0")
 
 
 _UNTOUCHED: Final[Any] = {"contype": "0", "conaffinity": "0", "mass": "0"}
 _TOUCHING: Final[Any] = {"contype": "2", "conaffinity": "1", "mass": "0"}
-"""Of a geom of the robot: it touches what others have in their scenes, 1 and 1 by default, and no
-other geom of the robot."""
+"""Attributes of a geom of the robot that collides with geoms of the scene, whose values are 1 and 1
+by default, but not with other geoms of the robot."""
 
 
 def _contact(
@@ -174,14 +174,14 @@ def _contact(
 def _inertial(body: Element, properties: MassProperties) -> None:
     inertia, turn = properties.inertia, {}
     if np.count_nonzero(inertia - np.diag(np.diag(inertia))):
-        # up to 3.6 MuJoCo itself finds the principal axes to six digits only
+        # MuJoCo itself computes the principal axes to six digits only, at least up to 3.6
         moments, axes = np.linalg.eigh(inertia)
         axes[:, 2] *= np.linalg.det(axes)  # right-handed
         inertia = np.diag(moments)
         turn = {"quat": _numbers(Rotation.from_matrix(axes).as_quat(scalar_first=True))}
-    place, mass = _numbers(properties.com), repr(float(properties.mass))
+    center, mass = _numbers(properties.com), repr(float(properties.mass))
     diagonal = _numbers(np.diag(inertia))
-    _add(body, "inertial", turn, pos=place, mass=mass, diaginertia=diagonal)
+    _add(body, "inertial", turn, pos=center, mass=mass, diaginertia=diagonal)
 
 
 def _box(body: Element, center: Sequence[float], size: Sequence[float], touch: Any) -> None:
@@ -190,7 +190,7 @@ def _box(body: Element, center: Sequence[float], size: Sequence[float], touch: A
 
 
 def _ground(root: Element, robot: RobotDescription, admittances: Sequence[float]) -> None:
-    """A level ground, and the pairs of the feet with it."""
+    """Add a level ground and its contact pairs with the feet."""
     world = root.find("worldbody")
     assert world is not None
     mu = robot.contact.friction
@@ -212,7 +212,7 @@ def _actuators(root: Element, robot: RobotDescription, servo: str) -> None:
     motors, of = robot.servo, _add(root, "actuator")
     stall, speed = motors.stall_torque, motors.no_load_speed
     if servo == "dcmotor":
-        # the supply voltage is free: 1 V gives the same line
+        # any supply voltage gives the same line from stall torque to no-load speed
         gains = {
             "nominal": _numbers((1.0, stall, speed)),
             "saturation": _numbers((stall, 0.0, 0.0)),
@@ -253,7 +253,7 @@ def _within(limit: float) -> tuple[float, float]:
 
 
 def _numbers(values: Iterable[float]) -> str:
-    """Numbers with every digit they have, and no minus zero."""
+    """Numbers with all digits, and without minus zero."""
     return " ".join(repr(float(value) + 0.0) for value in values)
 
 

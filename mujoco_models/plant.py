@@ -1,4 +1,4 @@
-"""A legged robot in MuJoCo."""
+"""The plant in MuJoCo."""
 
 from __future__ import annotations
 

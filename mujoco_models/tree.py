@@ -15,19 +15,19 @@ from mujoco_models.engine import mj
 from mujoco_models.mjcf import foot_of, robot_mjcf, tree_mjcf
 
 WILD: Final = 1e4
-"""Norm of the speeds [m/s, rad/s] beyond which the motion has broken down."""
+"""Norm of the speeds [m/s, rad/s] above which the motion has diverged."""
 
 
 def export_mjcf(robot: RobotDescription, *, servo: str = "position") -> str:
-    """A robot as MJCF for other users, see ``mjcf.robot_mjcf``; MuJoCo has loaded it.
+    """A robot as MJCF for other programs, see ``mjcf.robot_mjcf``; checked by loading it in MuJoCo.
 
     Its names become plain ones, see ``apnc_plant.robot.names``.
 
     Raises:
-        ValueError: an unknown servo.
+        ValueError: the servo is unknown.
     """
     robot = plainly_named(robot)
-    # the admittance of the feet, which their contact depends on, is known once it is compiled
+    # the contact depends on the admittance of the feet, which only the compiled model tells
     rough = _model(robot_mjcf(robot, [1.0] * len(robot.legs), servo=servo))
     bodies = [rough.geom_bodyid[rough.geom(foot_of(leg)).id] for leg in robot.legs]
     admittances = [float(rough.body_invweight0[body, 0]) for body in bodies]
@@ -43,8 +43,7 @@ def _model(text: str) -> Any:
 class MujocoTree(Engine):
     """The robot in MuJoCo, integrated by velocity Verlet as in Exudyn.
 
-    Servos, suspension and contact are generalized forces from outside, the very ones that Exudyn
-    gets.
+    Servos, suspension and contact are generalized forces from outside, the same as in Exudyn.
 
     Attributes:
         model, data: MuJoCo's.
@@ -74,16 +73,16 @@ class MujocoTree(Engine):
             position += step * speed
             self._accelerate()
             speed += 0.5 * step * acceleration
-            if not speed @ speed < WILD**2:  # not a number neither
+            if not speed @ speed < WILD**2:  # also if it is not a number
                 return False
         data.time = end
         q[:], v[:] = position, speed
         return True
 
     def _accelerate(self) -> None:
-        """Find the accelerations, under the forces at the present coordinates and speeds."""
+        """Compute the accelerations from the forces at the present coordinates and speeds."""
         self.data.qfrc_applied[:] = self._forces.acting(self.data.qpos, self.data.qvel)
-        # mj_step would also look for a motion that broke down, and reset it with a warning
+        # mj_step would also check for divergence, and reset the motion with a warning
         mj().mj_forward(self.model, self.data)
 
     def mass_matrix(self) -> Array:

@@ -1,4 +1,4 @@
-"""Grounds: one object each, which nothing else needs to know the kind of."""
+"""Grounds. Code outside this folder uses them without knowing their kind."""
 
 from apnc_plant.ground.ground import GROUNDS, Ground, from_dict, parse_ground
 from apnc_plant.ground.in_c import GroundInC, Numbers

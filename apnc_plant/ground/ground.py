@@ -1,4 +1,4 @@
-"""What every ground is: a surface that a ball can touch."""
+"""Base of all grounds: a surface that a ball can touch."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from apnc_core.types import Array
 from apnc_plant.ground.in_c import GroundInC, Numbers
 
 GRID: Final = 0.1
-"""Distance between the lines a ground is drawn with [m]."""
+"""Distance between the lines with which a ground is drawn [m]."""
 
 
 @dataclass(frozen=True)
 class Ground(ABC):
-    """A ground: how high it is and where a ball touches it, in its own frame.
+    """A ground: its height, and where a ball touches it, in its own frame.
 
-    The frame is the world's, turned about y by ``slope``; z points out of the ground, and the plane
-    z = 0 is the ground without what is special about it.
+    The frame of the ground is the world frame, turned about y by ``slope``. z points out of the
+    ground; obstacles and the like rise from its plane z = 0.
 
     A ground of one's own is a subclass with ``kind``, :attr:`top`, :meth:`elevation` and a touch
-    function: :meth:`touch` in Python, or :attr:`address` of one in C, which is much faster. With an
-    entry in ``GROUNDS`` it can be named on the command line. Grounds that the plant in C knows
-    itself have :attr:`kind_in_c` and :meth:`numbers`.
+    function: :meth:`touch` in Python, or :attr:`address` of a function in C, which is much faster.
+    An entry in ``GROUNDS`` makes it known to the command line. Grounds that are built into the
+    plant in C define :attr:`kind_in_c` and :meth:`numbers` instead.
 
     Args:
         slope: angle by which the ground rises along x [rad].
@@ -46,7 +46,7 @@ class Ground(ABC):
     slope: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check the values: of the type that their field says, and in range."""
+        """Check types and ranges of the fields."""
         for name, kind in _types(type(self)).items():
             object.__setattr__(self, name, _typed(name, kind, in_python(getattr(self, name))))
         self._require("slope", abs(self.slope) < math.pi / 2, "less than a right angle [rad]")
@@ -58,11 +58,11 @@ class Ground(ABC):
     @property
     @abstractmethod
     def top(self) -> float:
-        """Height over the plane that no point of the ground exceeds [m]; 0 or more."""
+        """Upper bound of the height over the plane [m]; 0 or more."""
 
     @property
     def flat(self) -> bool:
-        """Whether the ground is the plane z = 0 and nothing else."""
+        """Whether the ground is just the plane z = 0."""
         return False
 
     @abstractmethod
@@ -70,38 +70,39 @@ class Ground(ABC):
         """Height over the plane [m].
 
         Args:
-            x, y: places in the frame of the ground [m], shapes that broadcast.
+            x, y: positions in the frame of the ground [m], shapes that broadcast.
         """
 
     def numbers(self, radius: float) -> Numbers:
-        """What the touch function in C reads for balls of a radius up to ``radius`` [m]."""
+        """Numbers that the touch function in C needs, for balls up to ``radius`` [m]."""
         return Numbers()
 
     def touch(self, x: float, y: float, z: float, radius: float) -> Sequence[Sequence[float]]:
-        """Where a ball touches a ground of one's own.
+        """Contact points of a ball with a ground of one's own.
 
         Args:
             x, y, z: centre of the ball in the frame of the ground [m].
             radius: of the ball [m]; 0 for a point.
 
         Returns:
-            Normal (x, y, z), which points out of the ground, and depth [m], above 0, of every place
-            of contact: no more places than ``numbers(radius).contacts``. Must be empty where z is
-            ``radius + top`` or more.
+            For each contact point its normal (x, y, z), which points out of the ground, and its
+            depth [m], which is above 0. There may be at most ``numbers(radius).contacts`` points,
+            and none if z is ``radius + top`` or more.
         """
         raise NotImplementedError
 
     @property
     def address(self) -> int:
-        """Address of a C function of the type ``plant_touch`` that does what :meth:`touch` does.
+        """Address of a C function of the type ``plant_touch`` in place of :meth:`touch`; 0: none.
 
-        It reads :meth:`numbers`. 0 for none. Pitfall: the object it comes from must stay alive.
+        The function gets the numbers of :meth:`numbers`. Pitfall: the object that owns the function
+        must stay alive.
         """
         return 0
 
     @property
     def touches_itself(self) -> bool:
-        """Whether it has a touch function of its own, in Python or by address."""
+        """Whether it has its own touch function, in Python or by address."""
         return type(self).touch is not Ground.touch or self.address != 0
 
     def rotation(self) -> Array:
@@ -109,21 +110,21 @@ class Ground(ABC):
         c, s = math.cos(self.slope), math.sin(self.slope)
         return np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
 
-    def contacts(self, place: Sequence[float], radius: float) -> Array:
-        """Normals (x, y, z) and depths [m] of a ball's contacts, shape (contacts, 4).
+    def contacts(self, position: Sequence[float], radius: float) -> Array:
+        """Normals (x, y, z) and depths [m] of a ball's contact points, shape (contacts, 4).
 
         Args:
-            place: centre of the ball in the frame of the ground [m].
-            radius: of the ball [m].
+            position: centre of the ball in the frame of the ground [m].
+            radius: radius of the ball [m].
         """
-        return GroundInC(self, radius).touches([float(value) for value in place], radius)
+        return GroundInC(self, radius).touches([float(value) for value in position], radius)
 
     def rest_height(self, x: float, y: float, radius: float) -> float:
-        """Height of a ball's centre over the plane when it just touches what is below it [m].
+        """Height of a ball's centre over the plane at which the ball just touches the ground [m].
 
         Args:
-            x, y: place of the centre in the frame of the ground [m].
-            radius: of the ball [m].
+            x, y: position of the centre in the frame of the ground [m].
+            radius: radius of the ball [m].
         """
         return GroundInC(self, radius).rest_height(x, y, radius)
 
@@ -136,9 +137,9 @@ class Ground(ABC):
         Returns:
             Points on the ground in its frame [m], each line of shape (points, 3).
 
-        Points are 1 cm apart, so a vertical face is drawn as a slope of 1 cm: a ground with faces
-        overrides :meth:`_line` and adds both ends of each, as ``Kerb`` does, or ``lines`` as a
-        whole, as ``Obstacles`` does.
+        Points are 1 cm apart, so a vertical face would be drawn as a slope of 1 cm. A ground with
+        faces overrides :meth:`_line` to add both ends of each face, as ``Kerb`` does, or it
+        overrides this method, as ``Obstacles`` does.
         """
         lines = [self._line(self._stations(x0, x1), [y]) for y in _multiples(y0, y1)]
         return lines + [
@@ -150,7 +151,7 @@ class Ground(ABC):
         return math.inf if self.flat else GRID / 10.0
 
     def _stations(self, x0: float, x1: float) -> Array:
-        """Places along x at which a line along x has its points [m]."""
+        """Positions along x of the points of a line along x [m]."""
         return _between(x0, x1, self._spacing)
 
     def _line(self, x: Any, y: Any) -> Array:
@@ -158,7 +159,7 @@ class Ground(ABC):
         return np.column_stack([xs, ys, self.elevation(xs, ys)])
 
     def text(self) -> str:
-        """Kind and fields that are not the default, as :func:`parse_ground` reads them."""
+        """Kind and all fields that differ from the default, as a text for :func:`parse_ground`."""
         default = type(self)()
         words = [
             f"{f.name}={':'.join(map(str, value)) if isinstance(value, tuple) else value}"
@@ -168,7 +169,7 @@ class Ground(ABC):
         return ":".join(filter(None, (self.kind, ",".join(words))))
 
     def to_dict(self) -> dict[str, Any]:
-        """Kind and fields as plain data; :func:`from_dict` makes the ground of it again."""
+        """Kind and fields as plain data; the inverse of :func:`from_dict`."""
         return {"kind": self.kind} | {
             name: list(value) if isinstance(value, tuple) else value
             for name, value in asdict(self).items()
@@ -176,17 +177,17 @@ class Ground(ABC):
 
 
 GROUNDS: Final[dict[str, type[Ground]]] = {}
-"""Every kind of ground by name."""
+"""All kinds of ground by name."""
 
 
 def from_dict(data: Mapping[str, Any]) -> Ground:
-    """A ground of its kind and fields; a field that is left out has its default.
+    """The ground of a kind with these fields; a field that is left out has its default.
 
     Args:
-        data: as :meth:`Ground.to_dict` gives it.
+        data: kind and fields, see :meth:`Ground.to_dict`.
 
     Raises:
-        ValueError: no such kind or field, or a value of the wrong type or out of range.
+        ValueError: the kind or a field is unknown, or a value has a wrong type or is out of range.
     """
     kind = data.get("kind")
     if kind not in GROUNDS:
@@ -204,10 +205,11 @@ def from_dict(data: Mapping[str, Any]) -> Ground:
 
 
 def parse_ground(text: str) -> Ground:
-    """``"kerb:at=0.5,height=0.006"`` -> a ground; numbers of a list are parted by a colon.
+    """The ground that a text such as ``"kerb:at=0.5,height=0.006"`` describes.
 
     Args:
-        text: kind, then a colon and fields, parted by commas; those left out have their defaults.
+        text: kind, then a colon and the fields, separated by commas; the numbers of a list are
+            separated by colons. A field that is left out has its default.
 
     Raises:
         ValueError: as :func:`from_dict`.
@@ -230,10 +232,10 @@ def _number(text: str) -> object:
 
 @cache
 def _types(cls: type[Ground]) -> dict[str, Any]:
-    """Types of the fields that hold a number or some; others are a ground's own business."""
+    """Types of the fields that hold numbers; a ground checks its other fields itself."""
     try:
         hints = get_type_hints(cls)
-    except NameError:  # of a class inside a function
+    except NameError:  # the class is defined inside a function
         return {}
     numbers = (int, float)
     types = {f.name: hints[f.name] for f in fields(cls)}
@@ -261,10 +263,10 @@ def _typed(name: str, kind: Any, value: Any) -> Any:
 
 
 def _multiples(low: float, high: float) -> Array:
-    """Multiples of ``GRID`` between two places [m]."""
+    """Multiples of ``GRID`` between two positions [m]."""
     return np.asarray(GRID * np.arange(math.ceil(low / GRID), math.floor(high / GRID) + 1.0))
 
 
 def _between(low: float, high: float, spacing: float) -> Array:
-    """Places from ``low`` to ``high``, both included, at most ``spacing`` apart [m]."""
+    """Positions from ``low`` to ``high``, both included, at most ``spacing`` apart [m]."""
     return np.linspace(low, high, max(1, math.ceil((high - low) / spacing)) + 1)

@@ -1,4 +1,4 @@
-"""A ground as the plant in C reads it."""
+"""Grounds as structs of the plant in C."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ Integers = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Numbers:
-    """What the touch function of a ground reads.
+    """Numbers that the touch function of a ground needs; their meaning depends on the ground.
 
     Args:
-        reals: numbers of any meaning, shape (any,).
-        integers: whole numbers of any meaning, shape (any,).
-        contacts: the most places at which a ball touches at a time.
+        reals: numbers, shape (any,).
+        integers: whole numbers, shape (any,).
+        contacts: largest number of contact points of a ball.
     """
 
     reals: Array = field(default_factory=lambda: np.zeros(1))
@@ -34,12 +34,12 @@ class Numbers:
 
 
 class GroundInC:
-    """The struct ``plant_ground`` of a ground; keep it as long as anything in C stands on it.
+    """The struct ``plant_ground`` of a ground; it must live as long as a plant in C uses it.
 
     Attributes:
         at: pointer to the struct.
-        contacts: the most places at which a ball touches at a time.
-        flat: whether C sees a plane and nothing else.
+        contacts: largest number of contact points of a ball.
+        flat: whether the ground is just a plane for C.
     """
 
     def __init__(self, ground: Ground, radius: float) -> None:
@@ -47,10 +47,10 @@ class GroundInC:
 
         Args:
             ground: the ground.
-            radius: of the largest ball that touches it [m].
+            radius: radius of the largest ball that touches it [m].
 
         Raises:
-            ValueError: the ground does not take such a ball, or has no way to touch it.
+            ValueError: the ball is too large for the ground, or the ground has no touch function.
         """
         ffi, lib = library()
         self._ground = ground
@@ -92,21 +92,21 @@ class GroundInC:
     def _ask(
         self, x: float, y: float, z: float, radius: float, reals: Any, integers: Any, found: Any
     ) -> int:
-        """What C calls for a ground that touches in Python."""
-        if self._error is not None:  # the first one is told
+        """Function that C calls for a ground whose touch function is in Python."""
+        if self._error is not None:  # the first error is reported
             return 0
-        places = self._ground.touch(x, y, z, radius)
-        if len(places) > self.contacts:
-            raise ValueError(f"{len(places)} places; its numbers allow {self.contacts}")
-        for k, (nx, ny, nz, depth) in enumerate(places):
+        points = self._ground.touch(x, y, z, radius)
+        if len(points) > self.contacts:
+            raise ValueError(f"{len(points)} contact points; its numbers allow {self.contacts}")
+        for k, (nx, ny, nz, depth) in enumerate(points):
             found[4 * k : 4 * k + 4] = (nx, ny, nz, depth)
-        return len(places)
+        return len(points)
 
     def _note(self, kind: Any, error: BaseException, trace: Any) -> None:
         self._error = error
 
     def check(self) -> None:
-        """Tell what went wrong in a touch function since the last check.
+        """Raise an error that occurred in a touch function since the last check.
 
         Raises:
             ValueError: the touch function of a ground of one's own raised an error.
@@ -114,17 +114,17 @@ class GroundInC:
         if self._error is None:
             return
         error, self._error = self._error, None
-        if not isinstance(error, Exception):  # the user's interrupt
+        if not isinstance(error, Exception):  # the user interrupted the program
             raise error
         kind = type(error).__name__
         raise ValueError(f"ground '{self._ground.kind}': touch failed: {kind}: {error}") from error
 
     def rest_height(self, x: float, y: float, radius: float) -> float:
-        """Height of a ball's centre over the plane when it just touches what is below it [m].
+        """Height of a ball's centre over the plane at which the ball just touches the ground [m].
 
         Args:
-            x, y: place of the centre in the frame of the ground [m].
-            radius: of the ball [m].
+            x, y: position of the centre in the frame of the ground [m].
+            radius: radius of the ball [m].
 
         Raises:
             ValueError: as :meth:`check`.
@@ -134,17 +134,17 @@ class GroundInC:
         self.check()
         return float(height)
 
-    def touches(self, place: Sequence[float], radius: float) -> Array:
-        """Normals (x, y, z) and depths [m] of a ball's contacts, shape (contacts, 4).
+    def touches(self, position: Sequence[float], radius: float) -> Array:
+        """Normals (x, y, z) and depths [m] of a ball's contact points, shape (contacts, 4).
 
         Args:
-            place: centre of the ball in the frame of the ground [m].
-            radius: of the ball [m].
+            position: centre of the ball in the frame of the ground [m].
+            radius: radius of the ball [m].
 
         Raises:
             ValueError: as :meth:`check`.
         """
         _, lib = library()
-        count = lib.plant_touches(self.at, *place, radius, self.found)
+        count = lib.plant_touches(self.at, *position, radius, self.found)
         self.check()
         return self._found.reshape(-1, 4)[:count].copy()

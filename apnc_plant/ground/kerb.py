@@ -1,4 +1,4 @@
-"""A step across the way."""
+"""A kerb across the way of the robot."""
 
 from __future__ import annotations
 
@@ -15,20 +15,21 @@ from apnc_plant.ground.in_c import Numbers
 
 @dataclass(frozen=True)
 class Kerb(Ground):
-    """A step up, and down again if it has a length; without end to both sides.
+    """A step up, and down again if it has a length. It extends without end to both sides.
 
     Args:
         slope: angle by which the whole ground rises along x [rad].
-        at: where it begins [m].
-        height: how high it is [m].
-        length: after which it goes down again [m]; 0: it does not.
+        at: position along x at which it begins [m].
+        height: its height [m].
+        length: length after which it goes down again [m]; 0: it has no end.
 
     Raises:
         ValueError: a value out of range.
 
-    The contact is exact. A ball touches the plane, where that is free, and the kerb, which is a
-    convex body, at its point nearest to the centre: top, face or edge. With its centre inside the
-    kerb, deeper than a foot gets, it is pushed out through the nearest of the three.
+    The contact is exact. A ball touches the plane where there is no kerb, and it touches the kerb,
+    which is a convex body, at the point nearest to the ball's centre: top, face or edge. If the
+    centre is inside the kerb, deeper than a foot gets, the ball is pushed out through the nearest
+    surface.
     """
 
     kind: ClassVar[str] = "kerb"
@@ -47,7 +48,7 @@ class Kerb(Ground):
 
     @property
     def end(self) -> float:
-        """Where it goes down again [m]."""
+        """Position along x at which it goes down again [m]."""
         return self.at + (self.length or math.inf)
 
     @property
@@ -56,7 +57,7 @@ class Kerb(Ground):
         return self.height
 
     def elevation(self, x: Array, y: Array) -> Array:
-        """Height of the kerb on it, else 0 [m]."""
+        """Height of the kerb within its length, else 0 [m]."""
         on = (x >= self.at) & (x <= self.end)
         return np.where(on, self.height, 0.0) + np.zeros_like(y)
 
@@ -65,15 +66,15 @@ class Kerb(Ground):
         return Numbers(np.array([self.at, self.end, self.height]), contacts=2)
 
     def _line(self, x: Any, y: Any) -> Array:
-        """A line over the kerb gets its edges as points, both ends of each face."""
+        """A line over the kerb has both ends of each face among its points."""
         line = super()._line(x, y)
         first = int(np.searchsorted(line[:, 0], self.at, "left"))
         last = int(np.searchsorted(line[:, 0], self.end, "right"))
-        for place, before, heights in (
+        for position, before, heights in (
             (self.end, last, (self.height, 0.0)),
             (self.at, first, (0.0, self.height)),
         ):
             if 0 < before < len(line):
-                face = [(place, line[0, 1], z) for z in heights]
+                face = [(position, line[0, 1], z) for z in heights]
                 line = np.insert(line, before, face, axis=0)
         return line

@@ -16,19 +16,19 @@ from apnc_plant.ground.in_c import GroundInC, Numbers
 from apnc_plant.library import library
 
 STEP_HEIGHT: Final = 0.01265
-"""Step height of the robot in the terrain study of the paper [m]: obstacle height at R = 1."""
+"""Step height of the robot in the terrain study of the paper [m]; height of obstacles at R = 1."""
 
 TILE: Final = 4.0
-"""Edge of the square of obstacles that is repeated without end [m]."""
+"""Edge of the square tile of obstacles, which is repeated without end [m]."""
 
 CELLS: Final = 80
-"""Cells along an edge of the tile, 5 cm each: a foot meets a handful of obstacles per cell."""
+"""Cells along an edge of the tile, 5 cm each, so that a cell lists only a few obstacles."""
 
 SINK_IN: Final = 0.002
 """Depth to which a foot may sink into an obstacle and still be found in its cell [m]."""
 
 CIRCLE: Final = np.linspace(0.0, 2.0 * math.pi, 17)
-"""Angles of the points a circle is drawn with [rad]."""
+"""Angles of the points with which a circle is drawn [rad]."""
 
 
 @dataclass(frozen=True)
@@ -38,20 +38,20 @@ class Obstacles(Ground):
     Args:
         slope: angle by which the ground rises along x [rad].
         roughness: R, height of the obstacles over ``STEP_HEIGHT`` [1], 0 for none.
-        seed: of the places and diameters of the obstacles.
+        seed: seed of the positions and diameters of the obstacles.
         density: obstacles per area [1/m^2].
-        diameters: smallest and largest diameter of the balls the obstacles are caps of [m].
+        diameters: smallest and largest diameter of the balls whose caps are the obstacles [m].
 
     Raises:
         ValueError: a value out of range.
 
-    Section 3.1.3 of Sun, Dai and Manoonpong (2023) gives hemispheres of different diameters,
-    randomly distributed and embedded in the ground, and their height: how far each stands out.
-    Density and diameters are not published. With these an eighth of the ground is covered at R = 1
-    and the flanks rise at 42 degrees (largest ball) to 81 degrees (smallest).
+    Section 3.1.3 of Sun, Dai and Manoonpong (2023) describes hemispheres of different diameters,
+    which are randomly distributed and embedded in the ground, and their height over the ground.
+    Density and diameters are not published. With the defaults an eighth of the ground is covered
+    at R = 1, and the flanks rise at 42 degrees (largest ball) to 81 degrees (smallest).
 
-    A tile of 4 m by 4 m is repeated without end. A ball looks up the cell it is over and tests the
-    obstacles listed there, so the cost depends on the density, not on the size of the field.
+    A tile of 4 m by 4 m is repeated without end. The cell under a foot lists the obstacles that the
+    foot can touch, so the cost depends on the density and not on the size of the field.
     """
 
     kind: ClassVar[str] = "obstacles"
@@ -79,44 +79,44 @@ class Obstacles(Ground):
 
     @property
     def flat(self) -> bool:
-        """Whether there are no obstacles, and no touch function of its own."""
+        """Whether there are neither obstacles nor its own touch function."""
         return self.roughness == 0.0 and not self.touches_itself
 
     def obstacles(self) -> Array:
-        """Balls in one tile, centre in the frame of the ground and radius [m], shape (balls, 4)."""
+        """Balls of one tile: centre in the frame of the ground and radius [m], shape (balls, 4)."""
         return _obstacles(self)
 
     def elevation(self, x: Array, y: Array) -> Array:
         """Height of the highest obstacle, at least 0 [m]."""
         xs, ys = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
         ground = GroundInC(self, 0.0)
-        places = zip(xs.flat, ys.flat, strict=True)
-        return np.array([ground.rest_height(u, v, 0.0) for u, v in places]).reshape(xs.shape)
+        points = zip(xs.flat, ys.flat, strict=True)
+        return np.array([ground.rest_height(u, v, 0.0) for u, v in points]).reshape(xs.shape)
 
     def numbers(self, radius: float) -> Numbers:
-        """Tile, cells along its edge and balls; where each cell begins in a list of balls, and that
-        list."""
+        """Reals: tile, cells along its edge, balls. Integers: start of each cell in a list of
+        balls, then that list."""
         return Numbers(contacts=1) if self.flat else _numbers(self, radius)
 
     def lines(self, x0: float, x1: float, y0: float, y1: float) -> list[Array]:
-        """The plane, and of every obstacle its foot and two arcs across its top."""
+        """Lines of the plane, and for every obstacle its outline and two arcs across its top."""
         lines = Ground.lines(Obstacles(), x0, x1, y0, y1)
         for x, y, z, radius in self.obstacles():
             for column in range(math.ceil((x0 - x) / TILE), math.floor((x1 - x) / TILE) + 1):
                 for row in range(math.ceil((y0 - y) / TILE), math.floor((y1 - y) / TILE) + 1):
-                    place = (x + TILE * column, y + TILE * row)
-                    lines += _cap(place, z, radius)
+                    center = (x + TILE * column, y + TILE * row)
+                    lines += _cap(center, z, radius)
         return lines
 
 
-def _cap(place: tuple[float, float], z: float, radius: float) -> list[Array]:
+def _cap(center: tuple[float, float], z: float, radius: float) -> list[Array]:
     foot = math.sqrt(radius**2 - z**2)
     across = foot * np.linspace(-1.0, 1.0, 9)
     over = z + np.sqrt(np.maximum(radius**2 - across**2, z**2))
     flat = np.zeros_like(across)
     ring = (foot * np.cos(CIRCLE), foot * np.sin(CIRCLE), np.zeros_like(CIRCLE))
     shapes = (ring, (across, flat, over), (flat, across, over))
-    return [np.column_stack([place[0] + dx, place[1] + dy, dz]) for dx, dy, dz in shapes]
+    return [np.column_stack([center[0] + dx, center[1] + dy, dz]) for dx, dy, dz in shapes]
 
 
 @lru_cache(maxsize=8)

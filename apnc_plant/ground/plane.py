@@ -26,7 +26,7 @@ class Plane(Ground):
 
     @property
     def flat(self) -> bool:
-        """A plane is flat, unless it has a touch function of its own."""
+        """True, unless a subclass has its own touch function."""
         return not self.touches_itself
 
     def elevation(self, x: Array, y: Array) -> Array:
@@ -34,7 +34,7 @@ class Plane(Ground):
         return np.zeros(np.broadcast(x, y).shape)
 
     def numbers(self, radius: float) -> Numbers:
-        """None are needed."""
+        """A plane needs no numbers."""
         return Numbers(contacts=1)
 
     def rest_height(self, x: float, y: float, radius: float) -> float:

@@ -13,10 +13,10 @@ from apnc_plant.ground.ground import Ground
 from apnc_plant.ground.in_c import Numbers
 
 STEEPEST: Final = 1.0
-"""Greatest slope along x or y that is allowed [1]: 45 degrees."""
+"""Largest slope along x or y [1]; 1 is 45 degrees."""
 
 TIGHTEST: Final = 0.5
-"""Greatest radius of a ball over the smallest radius of curvature [1]: it touches at one place."""
+"""Largest radius of a ball over the smallest radius of curvature [1], for one contact point."""
 
 
 @dataclass(frozen=True)
@@ -25,15 +25,16 @@ class Waves(Ground):
 
     Args:
         slope: angle by which the whole ground rises along x [rad].
-        amplitude: greatest height over the plane, and depth below it [m].
-        wavelength: of both waves [m].
+        amplitude: largest height over the plane, and largest depth below it [m].
+        wavelength: wavelength of both waves [m].
 
     Raises:
         ValueError: a value out of range, or waves steeper than 45 degrees.
 
-    A ball touches at the point of the surface nearest to its centre, found by Newton's method to
-    1e-9 m; the depth is then exact to 1e-15 m, since the distance is least there. For one place of
-    contact the valleys must be wide: a ball of more than half their radius of curvature is refused.
+    A ball touches at the point of the surface nearest to its centre. Newton's method finds it to
+    1e-9 m; the depth is then exact to 1e-15 m, because the distance has its minimum there. The
+    nearest point is unique only if the valleys are wide, so a ball of more than half their radius
+    of curvature is refused.
     """
 
     kind: ClassVar[str] = "waves"

@@ -1,4 +1,4 @@
-"""The links of a leg as a tree of joints has them, whatever it is written for."""
+"""The links of a leg as parts of a tree of joints, for engines and robot formats."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 from apnc_plant.robot.model import Leg, MassProperties, Vector3
 
 JOINT_RANGE: Final = (-pi, pi)
-"""Range of every joint [rad] where a format wants one: a full turn, the model has no stops."""
+"""Range of every joint [rad] for formats that need one. It is a full turn: joints have no stops."""
 
 
 class Link(NamedTuple):
@@ -17,15 +17,15 @@ class Link(NamedTuple):
     Args:
         name: ``"hip_link"``, ``"femur_link"`` or ``"tibia_link"``.
         joint: ``"abduction"``, ``"hip"`` or ``"knee"``.
-        place: of the joint in the frame of the link before, the trunk for the first [m].
-        pitch: rotation about y from that frame to the link's in the reference pose [rad].
-        axis: of the joint, so that a positive angle is what ``apnc_plant.signals`` calls so.
+        position: of the joint, in the frame of the parent link or the trunk [m].
+        pitch: rotation about y from the parent's frame to the link's in the reference pose [rad].
+        axis: axis of the joint; positive angles are those of ``apnc_plant.signals``.
         body: mass properties in the frame of the link.
     """
 
     name: str
     joint: str
-    place: Vector3
+    position: Vector3
     pitch: float
     axis: Vector3
     body: MassProperties

@@ -1,4 +1,4 @@
-"""Robots as data: geometry, masses, servos, contact and sensors, independent of any engine."""
+"""Robots as data, independent of engines: geometry, masses, servos, contact and sensors."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ Vector3 = tuple[Length, Length, Length]
 GRAVITY: Final = 9.81
 
 PAYLOAD_SIZE: Final = (0.1, 0.1, 0.06)
-"""Edges of the box a payload is [m]."""
+"""Edges of the box that represents a payload [m]."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class MassProperties:
     inertia: Array
 
     def joined(self, other: MassProperties) -> MassProperties:
-        """Both bodies rigidly connected, by the parallel-axis theorem."""
+        """Mass properties of both bodies rigidly connected, by the parallel-axis theorem."""
         mass = self.mass + other.mass
         com = (self.mass * self.com + other.mass * other.com) / mass
         inertia = self._about(com) + other._about(com)
@@ -94,7 +94,7 @@ class Trunk(Body):
     """The body that carries the legs.
 
     Args:
-        mass, size: as of any body.
+        mass, size: as in :class:`Body`.
         com: centre of mass, measured from the reference point between the hips [m].
         center: middle of the box [m]; differs from the centre of mass.
         com_side_offset: size of the seeded sideways error of the centre of mass [m].
@@ -193,7 +193,7 @@ class Servo:
 
 @checked(RobotDescriptionError)
 class Contact:
-    """Rubber ball against hard ground.
+    """Contact of a foot, a rubber ball, with hard ground.
 
     Args:
         foot_radius: radius of the foot ball [m].
@@ -215,7 +215,7 @@ class Contact:
 
 @checked(RobotDescriptionError)
 class Sensor:
-    """What separates the load on a foot from the load the controller sees.
+    """Load cells: how the load that the controller gets differs from that on the foot.
 
     Args:
         component: ``"normal"`` for the force along the normal of the ground, ``"norm"`` for the
@@ -232,7 +232,7 @@ class Sensor:
 
 
 OF_THE_RUN: Final = ("Ts", "robot_weight", "method", "stored", "phi_stored")
-"""Parameters of the controller that a run sets, no robot and no preset."""
+"""Parameters of the controller that only a run sets, neither a robot nor a preset."""
 
 
 def _ordered(legs: tuple[Leg, ...]) -> tuple[Leg, ...]:
@@ -273,7 +273,7 @@ class RobotDescription:
         legs: in any order; kept in the order of the controller: right legs (y < 0) from front to
             hind, then the others from front to hind.
         controller: its own preset: parameters of the controller that differ from the defaults, by
-            name. Enumerations by item name or number.
+            name. Enumerations are given by item name or number.
 
     Raises:
         RobotDescriptionError: a value out of range; two legs of one name; right legs that are not

@@ -1,4 +1,4 @@
-"""Names for files, XML and topics, where not every character may stand."""
+"""Names that files, XML and topics allow."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from apnc_plant.robot.model import RobotDescription
 
 
 def plain_name(name: str) -> str:
-    """A name of letters, digits and ``_`` only, safe in paths, XML, ROS topics and USD.
+    """The name with letters, digits and ``_`` only, which paths, XML, ROS topics and USD allow.
 
     Args:
-        name: any name; what may not stay becomes ``_``, and a digit in front gets one before it.
+        name: any name. Other characters become ``_``; a leading digit gets a ``_`` before it.
     """
     plain = re.sub(r"[^A-Za-z0-9_]", "_", name)
     return f"_{plain}" if not plain or plain[0].isdigit() else plain
 
 
 def plain_names(names: Iterable[str]) -> tuple[str, ...]:
-    """Plain names that differ: where two would be one, the later gets ``_`` at its end."""
+    """Plain names that differ: if two are the same, ``_`` is appended to the later one."""
     taken: list[str] = []
     for name in map(plain_name, names):
         while name in taken:

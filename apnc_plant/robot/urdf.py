@@ -13,7 +13,7 @@ from apnc_plant.robot.model import Body, Leg, MassProperties, RobotDescription
 from apnc_plant.robot.names import plainly_named
 
 ROOTS: Final = ("trunk", "base")
-"""Links that may carry all others, see :func:`robot_urdf`."""
+"""Names that the root link may have, see :func:`robot_urdf`."""
 
 Element = ElementTree.Element
 _add = ElementTree.SubElement
@@ -26,18 +26,19 @@ def robot_urdf(robot: RobotDescription, *, root: str = "trunk") -> str:
     """A robot as URDF, its joints with our signs and reference pose.
 
     Joints are ``revolute`` with ``JOINT_RANGE``. ``effort`` is the stall torque, ``velocity`` the
-    no-load speed; URDF knows neither the line between them nor a rotor inertia nor a contact
-    stiffness: stiffness, damping and rotor inertia stand in a comment. Trunk, hip and femur links
-    touch as their boxes, each foot as a ball of its tibia. A frame of its own at the ball's centre
-    carries an inertial of zero mass, since some loaders count a link without inertial as 1 kg.
+    no-load speed. URDF has no element for the line between them, for rotor inertia and for contact
+    stiffness; a comment gives stiffness, damping and rotor inertia of the servo. The collision
+    shapes are boxes for trunk, hip and femur links and a ball at each tibia for the foot. A link of
+    zero mass marks the centre of the ball; it has an inertial, because some loaders count a link
+    without one as 1 kg.
 
     Args:
         robot: the robot; its names become plain ones, see ``plain_name``.
-        root: ``trunk``; or ``base``, a link without mass to which ``floating_base`` fixes the
-            trunk, as ROS has it: KDL leaves the inertia of a root out.
+        root: ``trunk``; or ``base``, a link without mass to which the joint ``floating_base``
+            fixes the trunk. ROS needs ``base``, since KDL ignores the inertia of a root link.
 
     Raises:
-        ValueError: an unknown root.
+        ValueError: the root is unknown.
 
     Pitfall: PyBullet makes a ``base`` without inertial 1 kg heavy, and holds one of zero mass in
     the air.
@@ -72,7 +73,7 @@ def _leg(root: Element, leg: Leg, robot: RobotDescription) -> None:
         element = _link(root, name, link.body)
         _box(element, leg.outward(box.com), box, _SEEN if box is leg.tibia else _TOUCHING)
         joint = _joint(root, f"{leg.name}_{link.joint}", "revolute", parent, name)
-        _add(joint, "origin", xyz=_numbers(link.place), rpy=_numbers((0.0, link.pitch, 0.0)))
+        _add(joint, "origin", xyz=_numbers(link.position), rpy=_numbers((0.0, link.pitch, 0.0)))
         _add(joint, "axis", xyz=_numbers(link.axis))
         _add(joint, "limit", limits)
         parent = name
@@ -98,15 +99,15 @@ def _link(root: Element, name: str, body: MassProperties) -> Element:
     inertial = _add(link, "inertial")
     _add(inertial, "origin", xyz=_numbers(body.com))
     _add(inertial, "mass", value=repr(float(body.mass)))
-    places = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
-    values = (repr(float(body.inertia[place])) for place in places)
+    entries = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
+    values = (repr(float(body.inertia[entry])) for entry in entries)
     _add(inertial, "inertia", dict(zip(_INERTIA, values, strict=True)))
     return link
 
 
 _SEEN: Final = ("visual",)
 _TOUCHING: Final = ("visual", "collision")
-"""How a shape shows. The box of a tibia is seen only: its edges would touch beside the ball."""
+"""Uses of a shape. The box of a tibia is only visible: its edges would touch beside the ball."""
 
 
 def _box(link: Element, center: Iterable[float], body: Body, kinds: Iterable[str]) -> None:
@@ -117,5 +118,5 @@ def _box(link: Element, center: Iterable[float], body: Body, kinds: Iterable[str
 
 
 def _numbers(values: Iterable[float]) -> str:
-    """Numbers with every digit they have, and no minus zero."""
+    """Numbers with all digits, and without minus zero."""
     return " ".join(repr(float(value) + 0.0) for value in values)

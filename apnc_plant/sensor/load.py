@@ -1,4 +1,4 @@
-"""Load cells in the feet: late, smoothed and noisy."""
+"""Load cells in the feet, with delay, low-pass and noise."""
 
 from __future__ import annotations
 
@@ -14,17 +14,16 @@ from apnc_plant.numbers import conditions_numbers, sensor_numbers
 from apnc_plant.robot.model import Sensor
 
 SHORTEST: Final = 1e-4
-"""Length of a control tick [s] down to which no load under way is lost."""
+"""Shortest control tick [s] for which no delayed load is lost."""
 
 
 class LoadSensor:
-    """The loads of all feet as the controller gets to see them.
+    """Load cells of all feet, which deliver what the controller gets.
 
-    Per control tick the load is read, arrives ``delay`` later (interpolated between readings if
-    the delay is no whole number of ticks, zero before the first), passes a first-order low-pass
-    y += (1 - exp(-dt/time_constant)) (x - y), discretised exactly so that it is the same filter
-    at every tick rate, and gets white Gaussian noise. A load cell under a foot cannot pull, so
-    the reading never falls below zero.
+    The load is read once per control tick and arrives ``delay`` later. Between two readings it is
+    interpolated linearly; before the first it is zero. It then passes a first-order low-pass,
+    y += (1 - exp(-dt/time_constant)) (x - y), which is the same filter at every tick length. White
+    Gaussian noise is added. A load cell under a foot cannot pull, so the result is cut off at zero.
     """
 
     def __init__(self, sensor: Sensor, legs: tuple[str, ...], weight: float, seed: int = 0) -> None:
@@ -33,11 +32,11 @@ class LoadSensor:
         Args:
             sensor: delay, time constant and noise.
             legs: names of the legs.
-            weight: weight of the robot [N], the scale of noise and stuck values.
-            seed: of the noise, 0 to 2^64 - 1.
+            weight: weight of the robot [N], which scales noise and stuck values.
+            seed: seed of the noise, 0 to 2^64 - 1.
 
         Raises:
-            ValueError: another seed.
+            ValueError: the seed is not allowed.
         """
         ffi, lib = library()
         self._legs, self._weight = legs, weight
@@ -50,13 +49,13 @@ class LoadSensor:
         self._reading_in_c = ffi.from_buffer("double[]", self._reading)
 
     def disturb(self, conditions: Conditions) -> None:
-        """From now on add noise, stick at a value or deliver nothing, as ``conditions`` says."""
+        """Set the sensor faults of ``conditions`` from now on."""
         _, lib = library()
         numbers = conditions_numbers(conditions, self._legs, self._weight)
         lib.plant_sensor_disturb(self._cells, numbers.at)
 
     def update(self, load: Array, duration: float) -> Array:
-        """Take the load at the end of a control tick and return what the sensor delivers [N].
+        """Read the loads at the end of a control tick; return what the sensors deliver [N].
 
         Args:
             load: load of each foot [N], shape (n_legs,).

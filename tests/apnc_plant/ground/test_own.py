@@ -184,7 +184,7 @@ class Odd(Own):
 @pytest.mark.parametrize(
     ("places", "message"),
     [
-        ([(0.0, 0.0, 1.0, 0.001)] * 5, "ValueError: 5 places; its numbers allow 4"),
+        ([(0.0, 0.0, 1.0, 0.001)] * 5, "ValueError: 5 contact points; its numbers allow 4"),
         ([(0.0, 0.0, 1.0)], "ValueError: not enough values to unpack"),
         ([("up", 0.0, 1.0, 0.001)], "TypeError"),
         (None, "TypeError"),
