@@ -1,1 +1,1 @@
-"""Studies of the model itself, and what writes the documentation; see README.md."""
+"""Studies of the model itself, and the scripts that write the documentation. See README.md."""

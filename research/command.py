@@ -10,7 +10,7 @@ from research.registry import STUDIES
 
 
 def main(name: str) -> None:
-    """Run the command line of a study; exit codes as those of ``apnc``."""
+    """Run the command line of a study. Exit codes are those of ``apnc``."""
     entry = STUDIES[name]
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     command = command_of(name, entry.options, STUDIES, folder=f"apnc-research-{name}")

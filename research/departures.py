@@ -1,4 +1,4 @@
-"""What each departure from the paper buys: taken back alone, the walk is judged again."""
+"""What does each departure from the paper buy? Each is taken back alone, and the walk is judged."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ TOGETHER: Final = (
     ("phase_measure",), ("phase_filter",), ("kappa_rule",), ("coupling_sign",), ("phi_frozen",),
     ("MI_zero_resets",),
 )  # fmt: skip
-"""Parameters that differ from the paper or the authors' code, those that belong together in one."""
+"""Parameters that differ from the paper or the authors' code, in groups that belong together."""
 
 PRINTED: Final[Mapping[str, SettingLike]] = {
     v.name: v.paper
@@ -53,7 +53,7 @@ WALKS: Final[Mapping[str, Mapping[str, Any]]] = {
     "C4": {"mi": WALK_MI, "conditions": "C4"},
     "C3": {"mi": SCHEDULE_MI, "conditions": "C3"},
 }
-"""Walks by name: what of the experiment is asked for."""
+"""Fields of the experiment by name of the walk."""
 
 STATES: Final = "S1 to S3"
 STOP_MOVES: Final = "moves_at_mi_zero"
@@ -62,7 +62,7 @@ WALK_S: Final = 25.0
 
 
 def experiment(controller: str, seed: int, removed: str, task: str) -> Experiment:
-    """A walk, or the run through the states S1 to S3, without one departure."""
+    """A walk, or the run through the states S1 to S3, with one departure taken back."""
     if task == STATES:
         return TIMELINE.experiment(controller, seed, settings=REMOVED[removed])
     walk: dict[str, Any] = {"controller": controller, "seed": seed, "settings": REMOVED[removed]}
@@ -70,11 +70,11 @@ def experiment(controller: str, seed: int, removed: str, task: str) -> Experimen
 
 
 def measure(record: Record) -> Result:
-    """What became of the gait in S1 to S3, for the run through them.
+    """Figures of the states S1 to S3, for the run through them.
 
     Returns:
-        The figures of the states, and ``moves_at_mi_zero``: whether an oscillator moves in the last
-        second of MI = 0.
+        The figures of the study ``states``, and ``moves_at_mi_zero``: whether an oscillator moves
+        in the last second of MI = 0. Nothing for a walk.
     """
     if not isinstance(record.experiment.mi, tuple):
         return {}
@@ -85,7 +85,7 @@ def measure(record: Record) -> Result:
 
 
 def table(results: Sequence[Result]) -> str:
-    """A line per departure: runs that form the strict trot, a speed, runs through S1 to S3."""
+    """A line per departure: runs that form the strict trot, speed, and runs through S1 to S3."""
     return markdown(
         _line(removed, matching(results, removed=removed)) for removed in _in_order(results)
     )

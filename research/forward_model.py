@@ -1,4 +1,4 @@
-"""Section 2.1.2: the joint whose copy the forward model takes, or kernels that learn the load."""
+"""Section 2.1.2: forward models: a copy of hip or knee command, or a radial basis network."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ MODELS: Final = {
     ForwardModel.low_pass_knee.name: "Eq. 10-11, knee",
     ForwardModel.radial_basis.name: "radial basis",
 }
-"""How a model is called in figures and tables, by its item."""
+"""Names of the models in figures and tables."""
 
 PRINTED, RADIAL = ForwardModel.low_pass_hip.name, ForwardModel.radial_basis.name
 
 LAST: Final = 5.0
-"""Last part of a walk over which its gain is a mean [s]."""
+"""Time at the end of a walk over which its gain is averaged [s]."""
 
 FORMING, LATE = "gain_forming", "gain_late"
 
@@ -51,10 +51,13 @@ def experiment(controller: str, seed: int, model: str, mi: float) -> Experiment:
 
 
 def measure(record: Record) -> Result:
-    """Gain of Eq. 9, mean over the legs: until the couplings switch on, and over the last 5 s.
+    """Gain of Eq. 9, mean over the legs, without the factor ``feedback_kept``.
 
-    ``feedback_kept`` does not count. None if they never do, or have not by then, or for a run that
-    ended early.
+    Returns:
+        ``gain_forming``: mean until the couplings switch on [1].
+        ``gain_late``: mean over the last 5 s [1].
+        Both are None for a run that is not complete, or whose couplings switch on after the start
+        of these 5 s or never.
     """
     gain = (record.signals["K_f"] + record.signals["K_s"]).mean(axis=1)
     on, begin = record.signals["kappa"] > 0.0, record.experiment.duration - LAST
@@ -66,7 +69,7 @@ def measure(record: Record) -> Result:
 
 
 def forms(model: str) -> Rule:
-    """Every trial with a model forms the gait; nine of ten are 'partly'."""
+    """Rule: every trial with a model forms the gait. Nine of ten is partly."""
 
     def check(results: Sequence[Result], column: str) -> Finding:
         hits = rate(successes(results, column, model=model))
@@ -78,7 +81,10 @@ def forms(model: str) -> Rule:
 
 
 def gain_falls(model: str) -> Rule:
-    """The interval of the gain, late over forming, ends below a half; below 1 is 'partly'."""
+    """Rule: the 95 % interval of the late gain over the forming one ends at 0.5 or below.
+
+    Below 1 is partly.
+    """
 
     def rule(results: Sequence[Result]) -> Finding:
         both = [r for r in matching(results, model=model) if r.get(FORMING) and r.get(LATE)]
@@ -93,7 +99,7 @@ def gain_falls(model: str) -> Rule:
 
 
 def figures(results: Sequence[Result]) -> list[Figure]:
-    """Times, speed, and the gain while the gait forms and late, by model and MI."""
+    """Times, speed, and the gain while the gait forms and at the end, by model and MI."""
     cells = [(label, name, mi) for name, label in MODELS.items() for mi in cells_in(results, "mi")]
 
     def by_cell(column: str) -> dict[str, list[float]]:
@@ -116,7 +122,7 @@ def figures(results: Sequence[Result]) -> list[Figure]:
 
 
 def table(results: Sequence[Result]) -> str:
-    """A line per model and MI: medians, smallest and largest."""
+    """A line per model and MI, with medians, smallest and largest values."""
     return markdown(
         {
             "forward model": label,

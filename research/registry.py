@@ -1,4 +1,4 @@
-"""Which studies there are beside those of the product; nothing heavy is imported here."""
+"""The studies of the model. A study is imported when it is loaded, not here."""
 
 from __future__ import annotations
 

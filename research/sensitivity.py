@@ -1,4 +1,4 @@
-"""How sure must a number of the robot be? Each is changed alone, and the walk is judged."""
+"""How exact must each number of the robot be? Each is changed alone, and the walk is judged."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ def _times(path: str, factor: float) -> Change:
 
 
 def _shifted(ahead: float = 0.0, up: float = 0.0) -> Change:
-    """The centre of mass of the trunk moved [m]."""
+    """Move the centre of mass of the trunk [m]."""
     return lambda robot: changed(
         robot, "trunk.com", lambda com: (com[0] + ahead, com[1], com[2] + up)
     )
 
 
 def _lighter_tibiae(moved: float) -> Change:
-    """Mass moved from each tibia to its femur [kg]."""
+    """Move mass from each tibia to its femur [kg]."""
 
     def leg(own: Any) -> Any:
         heavier = changed(own, "femur.mass", lambda mass: mass + moved)
@@ -81,11 +81,11 @@ CHANGES: Final[Mapping[str, Change]] = {
     "sensor noise x 3": _times("sensor.noise", 3.0),
     "sensor shows the norm": _set("sensor.component", "norm"),
 }
-"""What is changed, by the name it has in the table."""
+"""Changes of the robot, by name in the table."""
 
 
 OVER_MI: Final = ("nothing", SOFT)
-"""What walks at further MI, too: does the duty factor grow with MI, as in the paper?"""
+"""Changes that walk at all MI. Does the duty factor rise with MI, as in the paper?"""
 
 MI_VALUES: Final = (0.08, 0.12, 0.16, 0.2, 0.24, 0.28)
 USUAL_MI: Final = (0.08, 0.16)
@@ -93,7 +93,7 @@ DUTY: Final = "duty_factor_mean"
 
 
 def seeds(cell: Mapping[str, Any], trials: int) -> int:
-    """All, but most changes walk at two MI only."""
+    """All seeds at ``USUAL_MI``, and at the other MI for the changes of ``OVER_MI`` only."""
     return trials if cell["mi"] in USUAL_MI or cell["change"] in OVER_MI else 0
 
 
@@ -104,9 +104,10 @@ def experiment(controller: str, seed: int, change: str, mi: float) -> Experiment
 
 
 def table(results: Sequence[Result]) -> str:
-    """A line per change, strict times and mean speed at every MI that all walked at.
+    """Two tables: strict times and mean speed per change, and duty factor and speed over MI.
 
-    "-" did not form. Then duty factor and speed over MI, of what walks at more than two of them.
+    The first has the MI at which all changes walked; "-" stands for a run that did not form the
+    gait. The second has the changes of ``OVER_MI``.
     """
     changes, mis = _in_order(results), cells_in(results, "mi")
     common = [mi for mi in mis if all(matching(results, change=c, mi=mi) for c in changes)]

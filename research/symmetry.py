@@ -1,7 +1,7 @@
-"""Section 4.1.1: with equal loads under all feet, do the legs stay in phase for ever?
+"""Section 4.1.1: do the legs stay in phase if the loads under all feet are equal?
 
-The robot is the same left and right and its sensors have no noise. Nothing is left that a seed
-could change, so there is one run per MI.
+The robot is symmetric and its sensors have no noise. A seed would change nothing, so there is one
+run per MI.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from research.registry import STUDIES
 PARTED: Final = "parted_at_s"
 
 MIN_RUNS: Final = 3
-"""Fewer MI than this give no verdict."""
+"""Smallest number of MI for a verdict."""
 
 
 def experiment(controller: str, seed: int, mi: float) -> Experiment:
@@ -34,7 +34,7 @@ def experiment(controller: str, seed: int, mi: float) -> Experiment:
 
 
 def measure(record: Record) -> Result:
-    """When a leg was first more than 0.6 rad from the phase of another [s], None if never."""
+    """Time when a leg was first more than 0.6 rad from the phase of leg 1 [s], None if never."""
     o1, o2 = record.signals["o1"], record.signals["o2"]
     error = metrics.phase_error(o1, o2, (0.0,) * (len(record.legs) - 1))
     apart = record.time[error > metrics.STRICT_TOLERANCE]
@@ -42,7 +42,7 @@ def measure(record: Record) -> Result:
 
 
 def in_phase(results: Sequence[Result]) -> Finding:
-    """The legs stay in phase at every MI; at some is 'partly'."""
+    """The legs stay in phase at every MI. At some of them is partly."""
     parted, trots = values(results, PARTED), values(results, STRICT)
     text = (
         f"parted after {median(parted).text(1, 's', len(results))}; "

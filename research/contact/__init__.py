@@ -1,4 +1,4 @@
-"""Which integration step is fine enough: it is halved until nothing moves any more."""
+"""Which integration step is fine enough for the contact? It is halved until nothing changes."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ MAX_CHATTER: Final = 0.01
 
 
 def experiment(controller: str, seed: int, depth: float, steps: int) -> Experiment:
-    """A walk with a damping depth [m] of the feet and so many integration steps per tick."""
+    """A walk with a damping depth of the feet [m] and a number of integration steps per tick."""
     own, step = robot(depth), TICK / steps
     return Experiment(
         robot=own, controller=controller, seed=seed, mi=WALK_MI, duration=30.0, step=step
@@ -45,7 +45,7 @@ def experiment(controller: str, seed: int, depth: float, steps: int) -> Experime
 
 
 def table(results: Sequence[Result]) -> str:
-    """A line per law of damping and step, and whether the step is fine enough."""
+    """A line per damping depth and step, with whether the step is fine enough."""
     return markdown(_line(result) for result in results if is_number(result.get("force_error")))
 
 
@@ -73,12 +73,12 @@ TARGET: Final = f"error <= {100 * MAX_FORCE_ERROR:g} %, chatter <= {100 * MAX_CH
 
 
 def fine_enough(result: Result) -> bool:
-    """Whether force error and chatter of a step are within what is asked."""
+    """Whether force error and chatter of a step are within their limits."""
     return bool(result["force_error"] <= MAX_FORCE_ERROR and result["chatter"] <= MAX_CHATTER)
 
 
 def figures(results: Sequence[Result]) -> list[Figure]:
-    """Force error and chatter over the step, for each law of damping."""
+    """Force error and chatter over the step, for each damping depth."""
     data: list[Trace] = []
     for depth in cells_in(results, "depth"):
         for column, words in (("force_error", "force error"), ("chatter", "chatter")):
@@ -94,7 +94,7 @@ def figures(results: Sequence[Result]) -> list[Figure]:
 
 
 def scenes(_: Robot) -> list[Figure]:
-    """Force under a foot of Lilibot at its first touch-down, by law of damping and step."""
+    """Force under a foot of Lilibot at its first touch-down, by damping depth and step."""
     data = []
     laws = ((SUDDEN, STEPS[-1]), (GRADUAL, STEPS[-1]), (GRADUAL, 32), (GRADUAL, 16))
     for (depth, steps), colour in zip(laws, COLOURS, strict=False):

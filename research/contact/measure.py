@@ -1,4 +1,4 @@
-"""Forces on the feet in an open-loop trot, against the finest step."""
+"""Forces on the feet in an open-loop trot, and their error against the finest step."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from apnc_plant.robot import RobotDescription, load_robot
 
 TICK: Final = 1 / 60
 STEPS: Final = (8, 16, 32, 64, 128, 256)
-"""Integration steps per tick."""
+"""Numbers of integration steps per tick."""
 
 GRADUAL: Final = load_robot("lilibot").contact.damping_depth
-"""Depth over which damping sets in, as shipped [m]."""
+"""Shipped depth over which damping sets in [m]."""
 
 SUDDEN: Final = 1e-6
-"""Damping depth [m] that is as good as none: damping jumps in at first touch."""
+"""Damping depth of almost zero [m]: full damping from the first touch on."""
 
 OPEN_LOOP: Final = 3.0
-"""Length of the open-loop trot [s]; its first second does not count."""
+"""Length of the open-loop trot [s]. Its first second is not measured."""
 
 
 class Trot(NamedTuple):
-    """Forces on the feet after every step, shape (steps, n_legs, 3), and the place at the end."""
+    """Forces on the feet after every step [N], shape (steps, n_legs, 3), and last position [m]."""
 
     forces: Array
-    place: Array
+    position: Array
 
 
 def robot(depth: float) -> RobotDescription:
@@ -51,7 +51,7 @@ def commands(tick: int) -> tuple[Array, Array]:
 
 @lru_cache
 def trot(depth: float, steps: int, engine: str = OWN_ENGINE) -> Trot:
-    """Trot on fixed phases, integrated with ``steps`` steps per tick."""
+    """The open-loop trot with ``steps`` integration steps per tick."""
     plant = plant_in(engine)(robot(depth), options=PlantOptions(step=TICK / steps))
     forces = []
     for tick in range(round(OPEN_LOOP / TICK)):
@@ -64,7 +64,7 @@ def trot(depth: float, steps: int, engine: str = OWN_ENGINE) -> Trot:
 
 
 def measure(record: Record) -> Result:
-    """Errors of the open-loop trot with the step of a walk, and how fast the walk was computed."""
+    """Errors of the open-loop trot with the step of a walk, and the speed of the computation."""
     depth = record.robot.contact.damping_depth
     steps = round(TICK / record.experiment.step)
     return {
@@ -78,10 +78,12 @@ def errors(own: Trot, finest: Trot) -> Result:
     """How a trot differs from one with the finest step.
 
     Returns:
-        ``peak_N``: largest vertical force on a foot; ``force_error``: rms difference of the
-        vertical forces, as often per tick as the coarsest step, over their rms;
-        ``tick_force_error``: the same for the means over each tick; ``chatter``; and
-        ``distance_error_mm``: between the places at the end.
+        ``peak_N``: largest vertical force on a foot [N].
+        ``force_error``: rms difference of the vertical forces over their rms [1], sampled at the
+        times of the coarsest step.
+        ``tick_force_error``: the same of the mean forces of each tick [1].
+        ``chatter``: see :func:`chatter` [1].
+        ``distance_error_mm``: distance between the last positions [mm].
     """
     forces, reference = _per_tick(own), _per_tick(finest)
     return {
@@ -89,12 +91,12 @@ def errors(own: Trot, finest: Trot) -> Result:
         "force_error": _relative(_coarsest(forces), _coarsest(reference)),
         "tick_force_error": _relative(forces.mean(axis=1), reference.mean(axis=1)),
         "chatter": chatter(own.forces),
-        "distance_error_mm": 1e3 * float(np.linalg.norm(own.place - finest.place)),
+        "distance_error_mm": 1e3 * float(np.linalg.norm(own.position - finest.position)),
     }
 
 
 def chatter(forces: Array) -> float:
-    """Share of loaded samples at which a lateral force turns round twice in two steps."""
+    """Share of loaded samples at which a lateral force reverses its change between two steps."""
     loaded = forces[2:, :, 2] > 1.0
     change = np.diff(forces[:, :, :2], axis=0)
     sharp = np.abs(change) > 0.1

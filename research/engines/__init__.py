@@ -1,4 +1,4 @@
-"""Does the gait form in other engines, and in plain C, as it does in Exudyn?"""
+"""Does the gait form in MuJoCo and in C as it does in Exudyn?"""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ from research.registry import STUDIES
 MI_VALUES: Final = tuple(round(0.06 + 0.02 * i, 2) for i in range(12))
 
 ENGINES: Final = (OWN_ENGINE, "mujoco", COMPILED)
-"""The engines that are compared; those whose package is missing only if they are asked for."""
+"""Engines to compare. One whose package is missing is run only if it is asked for."""
 
 SHOWN_MI: Final = 0.15
 """MI of the walk that is drawn over time."""
 
 
 def installed() -> list[str]:
-    """The engines that can walk here."""
+    """The engines whose packages are installed."""
     return [engine for engine in ENGINES if engine not in EXTRAS or find_spec(engine)]
 
 
@@ -69,7 +69,7 @@ def _line(gait: str, mi: float, engine: str, results: list[Result]) -> dict[str,
 
 
 def scenes(robot: Robot) -> list[Figure]:
-    """One walk of the robot in each engine, and Lilibot's replays over time."""
+    """Draw one walk of the robot in each engine, and Lilibot's replays, over time."""
     runs = {name: experiment(name, robot=robot, seed=1, mi=SHOWN_MI) for name in installed()}
     records = {name: simulate(run) for name, run in runs.items()}
     others = [engine for engine in runs if engine != OWN_ENGINE]

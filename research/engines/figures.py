@@ -1,4 +1,4 @@
-"""Engines beside each other over MI, the replay over time, and one walk in each."""
+"""Figures of the comparison: results over MI, the replay over time, and one walk per engine."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ COLUMNS: Final = {
     "duty_factor_mean": "duty factor [1]",
     "largest_late_error_rad": "largest phase error of the last 10 s [rad]",
 }
-"""What is drawn over MI: column and title of its axis."""
+"""Titles of the figures over MI, by column."""
 
 SHOWN: Final = 15.0
-"""How much of a walk is drawn over time [s]."""
+"""Length of a walk that is drawn over time [s]."""
 
 LEAST: Final = 1e-17
-"""Distance that is drawn for none at all [m]."""
+"""Distance that is drawn in place of zero [m]."""
 
 HALF_TURNS: Final = {"tickvals": [0.0, np.pi], "ticktext": ["0", "π"]}
 
@@ -86,7 +86,11 @@ def replay(engines: Sequence[str]) -> Figure:
 
 
 def walks(records: Mapping[str, Record]) -> Figure:
-    """Relative phases of one walk in each engine, by its name."""
+    """Relative phases over time of one walk in each engine.
+
+    Args:
+        records: records by name of the engine.
+    """
     data: list[Trace] = []
     for engine, record in records.items():
         name, colour, _ = STYLES[engine]

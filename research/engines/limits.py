@@ -1,4 +1,4 @@
-"""Where the gait does not form: a robot without any asymmetry, and feet that bounce.
+"""Robots that do not form the gait: one without any asymmetry, and one on feet that bounce.
 
 ``python -m research.engines.limits`` prints the table of docs/engines.md.
 """
@@ -26,14 +26,14 @@ STIFFER, LESS_DAMPED = 5.0, 0.1
 
 
 def bouncing(robot: RobotDescription) -> RobotDescription:
-    """The robot on feet of more stiffness and less damping."""
+    """The robot on stiffer feet with less damping."""
     own = robot.contact
     stiffness, damping = STIFFER * own.stiffness, LESS_DAMPED * own.damping
     return replace(robot, contact=replace(own, stiffness=stiffness, damping=damping))
 
 
 def cases() -> Iterator[tuple[str, list[Experiment]]]:
-    """What is run: words and the experiments of its seeds, in Exudyn."""
+    """Name of each case, and its experiments, one per seed."""
     robot = load_robot("lilibot")
     for mi in (0.08, 0.15, 0.24):  # nothing is left that a seed could change
         alone = Experiment(robot=symmetric(robot), mi=mi, duration=WALK_S)
@@ -44,7 +44,7 @@ def cases() -> Iterator[tuple[str, list[Experiment]]]:
 
 
 def line(words: str, runs: list[Experiment]) -> dict[str, str]:
-    """How often the trot forms in each engine, when [s], and what came instead."""
+    """A line of the table: how often and when the trot forms in each engine, and other gaits."""
     cells = {"case": words}
     for engine in installed():
         found = [summarise(simulate(replace(run, engine=engine))) for run in runs]

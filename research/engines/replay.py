@@ -1,4 +1,4 @@
-"""The same commands in all engines: they stay together up to rounding."""
+"""The same commands in all engines: how far apart are the trunks?"""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ LENGTH: Final = 10.0
 
 
 def path_of(engine: str, length: float = LENGTH) -> Array:
-    """Place of the trunk after every tick of the open-loop trot [m], shape (ticks, 3).
+    """Position of the trunk after every tick of the open-loop trot [m], shape (ticks, 3).
 
     Args:
-        engine: of the plant.
-        length: of the trot [s].
+        engine: name of the engine.
+        length: length of the trot [s].
     """
     plant = plant_in(engine)(load_robot("lilibot"))
     trace = plant.trace()
@@ -34,8 +34,8 @@ def distances(engine: str, length: float = LENGTH) -> Array:
     """Distance between the trunks in an engine and in Exudyn after every tick [m].
 
     Args:
-        engine: that is compared.
-        length: of the trot [s].
+        engine: name of the engine to compare with Exudyn.
+        length: length of the trot [s].
     """
     own, its = path_of(OWN_ENGINE, length), path_of(engine, length)
     return np.asarray(np.linalg.norm(own - its, axis=1))

@@ -1,4 +1,4 @@
-"""What a tick costs in each engine, in turn in one run, and at equal force error.
+"""Processor time of a tick in each engine, at each step and at equal force error.
 
 ``python -m research.engines.speed`` prints the table.
 """
@@ -19,26 +19,26 @@ from research.engines import installed
 from research.engines.figures import STYLES
 
 STEPS: Final = (8, 16, 32)
-"""Integration steps per tick that are measured."""
+"""Numbers of integration steps per tick to measure."""
 
 FINEST: Final = 256
-"""Steps per tick that the force error is against, of the same engine."""
+"""Steps per tick of the reference for the force error, in the same engine."""
 
 USUAL: Final = ("exudyn", 16)
-"""Engine and steps per tick that all others are compared with."""
+"""Engine and steps per tick to compare all others with."""
 
 Key = tuple[str, int]
 
 
 class Cost(NamedTuple):
-    """Force error [1] of the open-loop trot, and processor time of a tick [s], the median."""
+    """Force error [1] of the open-loop trot, and median processor time of a tick [s]."""
 
     force_error: float
     tick_s: float
 
 
 def measure(repeats: int = 15, ticks: int = 120) -> dict[Key, Cost]:
-    """Cost by engine and steps per tick; the engines walk in turn, so that load hits all alike."""
+    """Cost by engine and steps per tick. The engines walk in turn, so that other load hits all."""
     keys = [(engine, n) for engine in installed() for n in STEPS]
     times: dict[Key, list[float]] = {key: [] for key in keys}
     for _ in range(repeats):
@@ -63,10 +63,10 @@ def _tick_s(engine: str, steps: int, ticks: int) -> float:
 
 
 def at_equal_error(costs: Mapping[Key, Cost], engine: str) -> float:
-    """Time of a tick at the force error of ``USUAL`` over the time of that; below 1 is faster.
+    """Time of a tick at the force error of ``USUAL`` over the time of ``USUAL``; below 1 is faster.
 
-    Between two steps both go with a power of the step; beyond the measured ones the nearest two
-    say which.
+    Between two measured steps the logarithms of error and time are interpolated linearly. Outside
+    of them the nearest two are extrapolated.
     """
     wanted = costs[USUAL]
     own = sorted(cost for (name, _), cost in costs.items() if name == engine)

@@ -1,3 +1,1 @@
-"""Why a gait forms: modes of compliant legs under a rigid trunk, and what the feedback makes of
-them.
-"""
+"""Why a gait forms: modes of compliant legs under a rigid trunk, and the feedback on them."""

@@ -1,4 +1,4 @@
-"""The gaits that are compared: those with a name, and those of six legs made of a load pattern."""
+"""The gaits to compare: those with a name, and one of six legs made of a load pattern."""
 
 from __future__ import annotations
 

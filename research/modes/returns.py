@@ -1,8 +1,8 @@
-"""The phase return map of the closed loop near a gait; its eigenvalues are Floquet multipliers.
+"""The phase return map of the closed loop near a gait. Its eigenvalues are Floquet multipliers.
 
-The oscillators are led along their free cycle with the phases of a gait, slightly off, until loads
-and learners have settled, and are then let go, without couplings. A linear map is fitted from the
-phase differences of each cycle to those of the next.
+The oscillators are forced along their free cycle, with phases slightly off those of a gait, until
+loads and learners have settled. They are then released, without couplings. A linear map is fitted
+from the phase differences of each cycle to those of the next.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ from research.modes.stance import patterns
 GRID: Final = 256
 
 TURNS: Final = 9
-"""Cycles after the release that are looked at."""
+"""Number of cycles after the release."""
 
 NEAR: Final = 1.0
-"""Beyond this the loop has left a gait, and no linear map holds [rad]."""
+"""Distance from a gait up to which the map is fitted [rad]."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Cycle:
 
 
 def free_cycle(p: Parameters, MI: float, ticks: int = 4000) -> Cycle:
-    """The cycle without load, from a path of so many ticks."""
+    """The cycle without load, found in a path of ``ticks`` ticks."""
     path = np.empty((ticks, 2))
     o1, o2 = np.array([p.o1_start]), np.array([p.o2_start])
     for row in path:
@@ -75,9 +75,9 @@ class ReturnMap:
     """delta' = A delta + c over one cycle, for phase differences delta from a gait.
 
     Args:
-        matrix: A, in the patterns of ``names``; nan where the gait is gone within a cycle.
-        drift: c, where the gait itself goes in a cycle [rad], same patterns.
-        patterns: over the legs by name, all but heave, which is the common phase.
+        matrix: A in the coordinates of ``patterns``. NaN if the gait is lost within a cycle.
+        drift: c, change of the exact gait in a cycle, in the same coordinates [rad].
+        patterns: patterns over the legs by name, without heave, which is the common phase.
     """
 
     matrix: Array
@@ -86,16 +86,16 @@ class ReturnMap:
 
     @property
     def multipliers(self) -> Array:
-        """Size of the eigenvalues, the largest first; above 1 the gait is left."""
+        """Magnitudes of the eigenvalues in descending order. Above 1 the gait is unstable."""
         if not np.isfinite(self.matrix).all():
             return np.full(len(self.drift), np.nan)
         return np.asarray(np.sort(np.abs(np.linalg.eigvals(self.matrix)))[::-1])
 
     @property
     def orbit(self) -> float:
-        """How far off the gait the orbit of the map is, the largest of phi_1k [rad]; nan if none.
+        """Largest distance of phi_1k at the map's fixed point from the gait [rad], NaN if none.
 
-        Pitfall: small multipliers alone do not make a gait; the orbit may be another one.
+        Pitfall: with small multipliers alone the fixed point may still be another gait.
         """
         try:
             fixed = np.linalg.solve(np.eye(len(self.drift)) - self.matrix, self.drift)
@@ -123,15 +123,19 @@ def parameters_of(experiment: Experiment) -> Parameters:
 def release(
     plant: Callable[[], Plant], p: Parameters, MI: float, *, settling: int = 4, turns: int = TURNS
 ) -> Release:
-    """The closed loop of plant and controller, led along phases for a while and then let go.
+    """The closed loop of plant and controller, forced along phases and then released.
 
     Args:
-        plant: makes the plant at its start; the same one every time.
+        plant: function that makes the plant at its start, the same one every time.
         p: parameters, see :func:`parameters_of`.
         MI: modulatory input.
-        settling: cycles before the oscillators are let go.
-        turns: cycles of leg 1 after that; fewer if the robot falls, leg 1 halts, or all is far
-            from those phases.
+        settling: number of forced cycles.
+        turns: number of cycles of leg 1 after the release. The run ends before if the robot falls,
+            leg 1 stops, or the phases are far from the forced ones.
+
+    Returns:
+        Function from the forced phases [rad], shape (n,), to the phases after the release [rad],
+        unwrapped, shape (ticks, n).
     """
     cycle = free_cycle(p, MI)
     held, slowest = round(settling * cycle.ticks), round((turns + 1) * 1.5 * cycle.ticks)
@@ -165,9 +169,9 @@ def return_map(released: Release, gait: Sequence[float], *, push: float = 0.3) -
     """Linearise a closed loop near a gait, by least squares over all cycles of all runs.
 
     Args:
-        released: the loop, see :func:`release`.
+        released: closed loop of :func:`release`.
         gait: phi_12 .. phi_1n [rad].
-        push: size of a perturbation along each pattern [rad], to both sides.
+        push: size of the perturbation along each pattern, in both directions [rad].
     """
     named = dict(list(patterns(len(gait) + 1).items())[1:])
     basis, base = np.array(list(named.values())), np.concatenate([[0.0], gait])
@@ -184,12 +188,12 @@ def return_map(released: Release, gait: Sequence[float], *, push: float = 0.3) -
 
 
 def offsets(phases: Array, base: Array, turns: int = TURNS) -> Array:
-    """Mean phase from a gait in every turn of leg 1 [rad], shape (turns, n); nan once it halts.
+    """Mean distance from a gait in each cycle of leg 1 [rad], shape (turns, n). NaN after its last.
 
     Args:
-        phases: of every tick [rad], unwrapped, shape (T, n).
-        base: 0, phi_12 .. phi_1n [rad].
-        turns: how many.
+        phases: phases of every tick [rad], unwrapped, shape (T, n).
+        base: phases of the gait: 0, phi_12 .. phi_1n [rad].
+        turns: number of cycles.
     """
     found = np.full((turns, len(base)), np.nan)
     turned = np.maximum.accumulate(phases[:, 0] - phases[0, 0]) / (2.0 * np.pi)

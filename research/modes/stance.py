@@ -1,13 +1,14 @@
-"""A rigid trunk on compliant legs: which leg carries what when the legs' lengths differ.
+"""A rigid trunk on compliant legs: the loads of the legs when their lengths differ.
 
 Of n legs with lengths L_i and stiffness k_i the trunk takes the height, pitch and roll q that
 balance its weight, and the loads are
 
     F = F_0 + R L,  R = K - K A (A^T K A)^-1 A^T K,  K = diag(k),
 
-A (n, 3) the rise of every hip with heave, pitch and roll. Those three patterns of lengths load no
-leg (R A = 0): the trunk follows. The other n - 3 it cannot follow, and they load the legs at once:
-warp, the diagonals against each other, on four legs; bend, twist and tripod on six.
+A (n, 3) the rise of every hip with heave, pitch and roll. These three patterns of lengths load no
+leg (R A = 0), since the trunk follows them. It cannot follow the other n - 3, which load the legs
+at once. They are warp (one diagonal against the other) on four legs, and bend, twist and tripod on
+six.
 """
 
 from __future__ import annotations

@@ -17,10 +17,10 @@ from research.modes.stance import stance_of
 class SpringTrunk:
     """A plant with three degrees of freedom: height, pitch and roll of the trunk.
 
-    A foot on the ground pushes by F = k (L - h) - d dh/dt, L the length that the joint commands ask
-    for, h the height of the hip over the foot, d = k D/P; it never pulls. In the air a leg follows
-    its command with the lag D/P. Feet stay where they are under the trunk in the reference pose:
-    what walking does along the ground is left out.
+    A foot on the ground pushes with F = k (L - h) - d dh/dt and never pulls. L is the length of the
+    leg at the joint commands, h the height of the hip over the foot, and d = k D/P. In the air a
+    leg follows its command with the lag D/P. The feet stay below their place in the reference pose:
+    motion along the ground is left out.
 
     Attributes:
         legs, mass, fell: as every plant.
@@ -71,8 +71,11 @@ class SpringTrunk:
         self._reading[:] = self._sensor.update(self.load, duration)
 
     def _step(self, wanted: Array, dt: float) -> None:
-        """Implicit Euler step; legs that would pull are taken off the ground, one check at most
-        per leg."""
+        """One implicit Euler step.
+
+        Legs that would pull are taken off the ground and the step is solved again, once per leg at
+        most.
+        """
         s, A, k = self._stance, self._stance.rigid, self._stance.stiffness
         self._length += (wanted - self._length) * -np.expm1(-dt / s.lag)
         on = self._length >= A @ (self._q + dt * self._v)

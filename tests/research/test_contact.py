@@ -68,10 +68,10 @@ def test_a_force_that_turns_once_does_not_chatter() -> None:
     assert chatter(forces) == 0.0
 
 
-def trot_of(vertical: Array, place: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Trot:
+def trot_of(vertical: Array, position: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Trot:
     forces = np.zeros((*vertical.shape, 3))
     forces[..., 2] = vertical
-    return Trot(forces, np.array(place))
+    return Trot(forces, np.array(position))
 
 
 def test_errors_are_relative_to_the_finest_step() -> None:
