@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Final
 from apnc_core import __version__
 
 if TYPE_CHECKING:
+    from apnc.features import WalkFeatures, walk_features
     from apnc.loop.experiment import Experiment
     from apnc.loop.gait import Gait, gait_of_run, read_gait, write_gait
     from apnc.loop.many import simulate_many
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from apnc.loop.simulate import simulate
     from apnc.report.folder import write_run as write_report
     from apnc.studies.runner import run_study
-    from apnc.summary import Summary, summarise
     from apnc_plant.conditions import Conditions
     from apnc_plant.ground import Ground, Kerb, Obstacles, Plane, Waves
     from apnc_plant.plant import Plant
@@ -37,7 +37,7 @@ _PLACES: Final = {
     "simulate_many": "apnc.loop.many",
     "write_report": "apnc.report.folder:write_run",
     "run_study": "apnc.studies.runner",
-    **dict.fromkeys(("Summary", "summarise"), "apnc.summary"),
+    **dict.fromkeys(("WalkFeatures", "walk_features"), "apnc.features"),
     "Conditions": "apnc_plant.conditions",
     **dict.fromkeys(("Ground", "Kerb", "Obstacles", "Plane", "Waves"), "apnc_plant.ground"),
     **dict.fromkeys(("RobotDescription", "load_robot"), "apnc_plant.robot"),
@@ -55,7 +55,7 @@ __all__ = [
     "Plant",
     "Record",
     "RobotDescription",
-    "Summary",
+    "WalkFeatures",
     "Waves",
     "__version__",
     "gait_of_run",
@@ -64,7 +64,7 @@ __all__ = [
     "run_study",
     "simulate",
     "simulate_many",
-    "summarise",
+    "walk_features",
     "write_gait",
     "write_report",
 ]

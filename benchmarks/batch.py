@@ -63,7 +63,7 @@ def in_batch(
             if recorded:
                 record = run.record()
                 if summaries:
-                    apnc.summarise(record)
+                    apnc.walk_features(record)
         return (time.process_time() - begin) / WALKS
 
     return measured
@@ -83,7 +83,7 @@ def parts(duration: float) -> dict[str, Callable[[], float]]:
 
     def summarised() -> float:
         records = [run.record() for run in walked(walks)]
-        return processor_s(lambda: [apnc.summarise(record) for record in records]) / WALKS
+        return processor_s(lambda: [apnc.walk_features(record) for record in records]) / WALKS
 
     return {
         "of which preparing the run": prepared,

@@ -9,7 +9,7 @@ experiment = apnc.Experiment(
     ground=apnc.Obstacles(roughness=0.2, seed=3),
 )
 record = apnc.simulate(experiment)
-summary = apnc.summarise(record)
+summary = apnc.walk_features(record)
 
 print(f"{record.end} at {record.ended_at:.1f} s: {experiment.command()}")
 print(f"speed along the path {summary.path_speed_m_per_s:.3f} m/s")

@@ -17,7 +17,7 @@ print(
 )
 
 record = apnc.simulate(experiment)
-summary = apnc.summarise(record)
+summary = apnc.walk_features(record)
 phases = ", ".join(f"{phi:.2f}" for phi in record.signals["phi"][-1])
 print(f"{record.end} at {record.ended_at:.1f} s, {summary.path_speed_m_per_s:.3f} m/s")
 print(f"phases against {record.legs[0]} at the end: {phases} rad")

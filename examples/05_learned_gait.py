@@ -16,5 +16,5 @@ for name, settings in (("no stored gait", {}), ("stored gait", with_gait)):
         apnc.Experiment(mi=0.15, duration=12, conditions="S3", settings=settings)
     )
     phases = ", ".join(f"{phi:5.2f}" for phi in record.signals["phi"][-1])
-    speed = apnc.summarise(record).path_speed_m_per_s
+    speed = apnc.walk_features(record).path_speed_m_per_s
     print(f"{name}: phases {phases} rad, {speed:.3f} m/s along the path")

@@ -9,11 +9,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any, Final, Literal, TypeVar, overload
 
+from apnc.features import WalkFeatures, walk_features
 from apnc.loop.batch import Batch, Lanes, Run, contacts_of, lanes_of
 from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
-from apnc.summary import Summary, summarise
 
 Result = TypeVar("Result")
 Stop = Callable[[], bool]
@@ -36,7 +36,7 @@ def simulate_many(
     records: Literal[False] = False,
     progress: Callable[[int, int], None] = ...,
     stop: Stop = ...,
-) -> list[Summary | None]: ...
+) -> list[WalkFeatures | None]: ...
 
 
 @overload
@@ -57,7 +57,7 @@ def simulate_many(
     records: bool = False,
     progress: Callable[[int, int], None] = lambda done, total: None,
     stop: Stop = lambda: False,
-) -> list[Summary | None] | list[Record | None]:
+) -> list[WalkFeatures | None] | list[Record | None]:
     """Walk many experiments in C, several robots side by side.
 
     Each walks as ``simulate`` walks it with ``engine="compiled"``, bit for bit, whatever walks
@@ -78,11 +78,11 @@ def simulate_many(
     Raises:
         ValueError: fewer than one worker, a controller that cannot be used, or one that refused.
     """
-    found: list[Summary | Record | None] = [None] * len(experiments)
+    found: list[WalkFeatures | Record | None] = [None] * len(experiments)
     done = 0
 
-    def keep(index: int, record: Record) -> Summary | Record:
-        return record if records else summarise(record)
+    def keep(index: int, record: Record) -> WalkFeatures | Record:
+        return record if records else walk_features(record)
 
     for index, result in walk_many(experiments, keep, workers=workers, stop=stop):
         if isinstance(result, Exception):

@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
+from apnc.features import WalkFeatures, walk_features
 from apnc.loop.columns import column_names
 from apnc.loop.csv_file import write_csv
 from apnc.loop.provenance import what_was_run
@@ -17,7 +18,6 @@ from apnc.loop.record import Record
 from apnc.report import RUN_FILES
 from apnc.report.locks import one_at_a_time
 from apnc.report.page import render
-from apnc.summary import Summary, summarise
 
 Write = Callable[[Path], object]
 _ASIDE: Final = ".writing-"
@@ -88,7 +88,7 @@ def _naming(path: Path) -> Iterator[None]:
         raise OSError(error.errno, error.strerror, str(path)) from error
 
 
-def write_run(record: Record, folder: Path | str) -> Summary:
+def write_run(record: Record, folder: Path | str) -> WalkFeatures:
     """Write ``summary.json``, ``record.csv`` and ``report.html`` of a run.
 
     Args:
@@ -101,7 +101,7 @@ def write_run(record: Record, folder: Path | str) -> Summary:
     Raises:
         OSError: a file cannot be written.
     """
-    summary = summarise(record)
+    summary = walk_features(record)
     text = summary_text(record, summary)
     writers: tuple[Write, ...] = (
         lambda path: path.write_text(text, encoding="utf-8"),
@@ -112,7 +112,7 @@ def write_run(record: Record, folder: Path | str) -> Summary:
     return summary
 
 
-def summary_text(record: Record, summary: Summary) -> str:
+def summary_text(record: Record, summary: WalkFeatures) -> str:
     """Text of ``summary.json``: key figures, what was run, and units of the columns."""
     units = {"columns": {column.name: column.unit for column in column_names(record)}}
     content = summary.to_dict() | what_was_run(record.experiment, record.parameters) | units

@@ -6,6 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from apnc.features import WalkFeatures
 from apnc.loop.provenance import what_was_run
 from apnc.loop.record import End, Record
 from apnc.report.animation import animation_data
@@ -16,14 +17,13 @@ from apnc.report.panels import Run
 from apnc.report.samples import LATE_S
 from apnc.report.theme import leg_colours
 from apnc.report.wording import facts, heading, rows, verdicts
-from apnc.summary import Summary
 from apnc_plant.signals import PLANT_SIGNALS
 
 BEYOND: Final = 1e4
 """Size from which on a length, angle, speed, force or torque is that of a diverged motion [SI]."""
 
 
-def render(record: Record, summary: Summary) -> str:
+def render(record: Record, summary: WalkFeatures) -> str:
     """HTML text of the report of a run, however it ended.
 
     Pitfall: it carries plotly.js (about 5 MB) and what it shows of the record; it is no archive.

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from apnc import metrics
+from apnc.features import WalkFeatures
 from apnc.loop.record import Record
 from apnc.report import theme
 from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
 from apnc.report.samples import Samples
-from apnc.summary import Summary
 from apnc_core.types import Array
 from apnc_plant.signals import PLANT_SIGNALS
 
@@ -30,7 +30,7 @@ class Run:
     """What every panel is made from; the record has at least one sample."""
 
     record: Record
-    summary: Summary
+    summary: WalkFeatures
 
     @cached_property
     def samples(self) -> Samples:

@@ -8,10 +8,10 @@ from dataclasses import dataclass, fields, replace
 from typing import Any, Final
 
 from apnc import metrics
+from apnc.features import WalkFeatures
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import End, Record
 from apnc.loop.schedule import schedule_text
-from apnc.summary import Summary
 from apnc_plant.conditions import Conditions
 
 DASH: Final = "–"
@@ -68,7 +68,7 @@ def _own_fmu(e: Experiment, parameters: Mapping[str, Any]) -> list[tuple[str, st
     return [("FMU", e.fmu), ("Start values of the FMU", ", ".join(_settings(held)) or "as usual")]
 
 
-def verdicts(summary: Summary, planned: float) -> list[Verdict]:
+def verdicts(summary: WalkFeatures, planned: float) -> list[Verdict]:
     """The three questions a reader has first, about a run that was to last ``planned`` [s]."""
     return [_walked(summary, planned), _formed(summary), _fast(summary)]
 
@@ -80,7 +80,7 @@ def number(value: float | None, digits: int = 2, unit: str = "") -> str:
     return f"{value:.{digits}f}{_SPACE * bool(unit)}{unit}"
 
 
-def rows(s: Summary) -> list[tuple[str, str, str]]:
+def rows(s: WalkFeatures) -> list[tuple[str, str, str]]:
     """Rows of the summary table: name, value with unit, what it means."""
     phases = [f"φ1{k}{_SPACE}{phase_text(p)}" for k, p in enumerate(s.phi_final, start=2)]
     target = metrics.gait_name(len(s.phi_final) + 1).capitalize()
@@ -147,7 +147,7 @@ def _plain(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(getattr(value, "name", value))
 
 
-def _walked(s: Summary, planned: float) -> Verdict:
+def _walked(s: WalkFeatures, planned: float) -> Verdict:
     question, when = "Did it walk?", number(s.duration_s, 2, "s")
     speed = s.path_speed_m_per_s
     way = "" if speed is None else f"{speed * s.duration_s:.2f} m of path"
@@ -163,7 +163,7 @@ def _walked(s: Summary, planned: float) -> Verdict:
     return Verdict(question, "Yes", f"{way} in {when}, upright throughout", "good")
 
 
-def _formed(s: Summary) -> Verdict:
+def _formed(s: WalkFeatures) -> Verdict:
     question = f"Did the {metrics.gait_name(len(s.phi_final) + 1)} form?"
     final = f"ended in {s.gait or 'no known gait'}: {', '.join(map(phase_text, s.phi_final))}"
     if s.end in (End.fell, End.diverged):
@@ -180,7 +180,7 @@ def _formed(s: Summary) -> Verdict:
     return Verdict(question, "No", final, "bad")
 
 
-def _fast(s: Summary) -> Verdict:
+def _fast(s: WalkFeatures) -> Verdict:
     if s.path_speed_m_per_s is None:
         return Verdict("How fast?", DASH, "not measured", "plain")
     stride = f"stride {number(s.stride_frequency_hz, 2, 'Hz')}"
@@ -189,7 +189,7 @@ def _fast(s: Summary) -> Verdict:
     return Verdict("How fast?", speed, f"along the path, turned {_turned(s)}; {detail}", "plain")
 
 
-def _turned(s: Summary) -> str:
+def _turned(s: WalkFeatures) -> str:
     if s.turned_deg is None:
         return DASH
     side = "left" if s.turned_deg > 0 else "right"

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import apnc_core
+from apnc.features import walk_features
 from apnc.loop.csv_file import write_csv
 from apnc.loop.engines import COMPILED
 from apnc.loop.many import Stop, walk_many
@@ -21,7 +22,6 @@ from apnc.studies.results import PHASE, Result, StudyResults, id_of
 from apnc.studies.store import Store
 from apnc.studies.study import Axes, Trial, load
 from apnc.studies.workers import pool, results_of
-from apnc.summary import summarise
 from build_fmu.build import host_fmu
 
 StudyProgress = Callable[[int, int, float, float], None]
@@ -202,7 +202,7 @@ def _begin(trial: Trial) -> Result:
 
 def measured(study: Entry, record: Record) -> Result:
     """The result of a record: its summary, the figures of the study, its end and its error."""
-    found = summarise(record).to_dict()
+    found = walk_features(record).to_dict()
     ended = {"ended_at_s": found.pop("duration_s"), "end": found.pop("end")}
     phases = {f"{PHASE}{k}": phi for k, phi in enumerate(found.pop("phi_final"), start=2)}
     single = {k: v for k, v in found.items() if k not in _LEFT_OUT and not isinstance(v, dict)}

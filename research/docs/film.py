@@ -18,12 +18,12 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial import ConvexHull
 
 from apnc import metrics
+from apnc.features import WalkFeatures, walk_features
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.report import theme
 from apnc.report.skeleton import clearance, leg_chains, trunk_corners
-from apnc.summary import Summary, summarise
 from apnc_core.types import Array
 
 Box = tuple[float, float, float, float]
@@ -215,7 +215,7 @@ def _last_stride(view: View, leg: int, sample: float) -> Array:
 
 
 def draw_feet(
-    canvas: Canvas, view: View, feet: Summary, box: Box, moment: Moment | None = None
+    canvas: Canvas, view: View, feet: WalkFeatures, box: Box, moment: Moment | None = None
 ) -> None:
     """A panel per foot: its lowest point over the ground, all strides, heights stretched."""
     left, top, width, height = box
@@ -254,7 +254,7 @@ def draw_feet(
     canvas.text(bar[1, 0] + 5, floor + 25, f"20 mm; heights x {up / along:.1f}", 9.0)
 
 
-def heading(view: View, feet: Summary) -> str:
+def heading(view: View, feet: WalkFeatures) -> str:
     """What is seen."""
     speed, stride = feet.path_speed_m_per_s or 0.0, feet.stride_frequency_hz or 0.0
     return (
@@ -272,7 +272,7 @@ def with_few_colours(view: View, picture: Image.Image) -> Image.Image:
     return picture.quantize(palette=palette, dither=Image.Dither.NONE)
 
 
-def film(view: View, feet: Summary, file: Path) -> None:
+def film(view: View, feet: WalkFeatures, file: Path) -> None:
     """A GIF at a quarter of the speed, of whole strides of the first leg."""
     starts, rate = view.starts[0], view.record.experiment.rate
     count = min(int(np.ceil(FILMED * (feet.stride_frequency_hz or 1.0))) + 1, len(starts) - 1)
@@ -292,7 +292,7 @@ def film(view: View, feet: Summary, file: Path) -> None:
     )
 
 
-def sheet(view: View, feet: Summary, file: Path, count: int = 8) -> None:
+def sheet(view: View, feet: WalkFeatures, file: Path, count: int = 8) -> None:
     """A PNG: a stride of the first leg in pictures, and every foot with its figures."""
     width, cell, high = 1200.0, 294.0, 196.0
     canvas = Canvas(width, 2 * high + 340)
@@ -337,7 +337,7 @@ def main(folder: Path, mis: Sequence[float]) -> None:
         part = steady_part(record)
         if not len(part) or min(map(len, (view := View(part)).starts)) < 4:
             sys.exit(f"MI {mi:g}: {record.end} at {record.ended_at:g} s without three strides")
-        feet = summarise(part)
+        feet = walk_features(part)
         film(view, feet, folder / f"film-mi-{mi:g}.gif")
         sheet(view, feet, folder / f"feet-mi-{mi:g}.png")
 

@@ -10,12 +10,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
+from apnc.features import WalkFeatures, walk_features
 from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
 from apnc.studies.robots import symmetric
 from apnc.studies.study import WALK_S
 from apnc.studies.table import markdown, middle
-from apnc.summary import Summary, summarise
 from apnc_plant.robot import RobotDescription, load_robot
 from research.engines import installed
 from research.engines.figures import STYLES
@@ -47,12 +47,12 @@ def line(words: str, runs: list[Experiment]) -> dict[str, str]:
     """A line of the table: how often and when the trot forms in each engine, and other gaits."""
     cells = {"case": words}
     for engine in installed():
-        found = [summarise(simulate(replace(run, engine=engine))) for run in runs]
+        found = [walk_features(simulate(replace(run, engine=engine))) for run in runs]
         cells[STYLES[engine][0]] = _cell(found)
     return cells
 
 
-def _cell(found: list[Summary]) -> str:
+def _cell(found: list[WalkFeatures]) -> str:
     times = [each.convergence_time_s for each in found if each.convergence_time_s is not None]
     others = Counter(str(each.gait) for each in found if each.convergence_time_s is None)
     words = [f"{len(times)}/{len(found)}"]

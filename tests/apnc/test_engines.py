@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import typer
 
-from apnc import Experiment, simulate, summarise
+from apnc import Experiment, simulate, walk_features
 from apnc.cli.app import app
 from apnc.cli.main import main
 from apnc.cli.walk import experiment_of
@@ -99,9 +99,9 @@ def test_what_cannot_be_exported_is_said(
 @needs_mujoco
 def test_the_trot_forms_in_mujoco_as_in_exudyn() -> None:
     run = Experiment(mi=0.15, seed=1, duration=12.0)
-    theirs = summarise(simulate(run))
+    theirs = walk_features(simulate(run))
     record = simulate(Experiment(engine="mujoco", mi=0.15, seed=1, duration=12.0))
-    ours = summarise(record)
+    ours = walk_features(record)
     assert ours.converged and theirs.converged
     assert ours.gait == theirs.gait == "trot"
     assert ours.stride_frequency_hz == pytest.approx(theirs.stride_frequency_hz, rel=0.1)

@@ -37,7 +37,7 @@ def test_what_a_person_writes(tmp_path: Path) -> None:
             robot="lilibot", mi=0.15, duration=2, seed=3, ground=apnc.Obstacles(roughness=0.5)
         )
     )
-    summary = apnc.summarise(record)
+    summary = apnc.walk_features(record)
     assert (len(record), summary.mi, summary.seed) == (120, 0.15, 3)
     apnc.write_report(record, tmp_path / "walk")
     assert (tmp_path / "walk" / "report.html").stat().st_size > 100_000
@@ -70,7 +70,7 @@ def walked(record: apnc.Record) -> float:
 
 
 def figures(record: apnc.Record) -> float | None:
-    summary: apnc.Summary = apnc.summarise(record)
+    summary: apnc.WalkFeatures = apnc.walk_features(record)
     return summary.path_speed_m_per_s
 
 

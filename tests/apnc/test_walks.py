@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from apnc import metrics
+from apnc.features import WalkFeatures, walk_features
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
@@ -17,13 +18,12 @@ from apnc.studies.states.measure import judge, measure
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.steering import schedules
 from apnc.studies.study import WALK_MI
-from apnc.summary import Summary, summarise
 from research.contact.measure import GRADUAL, SUDDEN, errors, trot
 
 
-def walked(**fields: Any) -> tuple[Record, Summary]:
+def walked(**fields: Any) -> tuple[Record, WalkFeatures]:
     record = simulate(Experiment(**{"duration": 20.0} | fields))
-    return record, summarise(record)
+    return record, walk_features(record)
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from apnc import metrics
+from apnc.feet import Feet
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.studies.claims import Claim, Finding, Rule, verdict
@@ -41,18 +41,12 @@ def measure(record: Record) -> Result:
         ``largest_slip_share``: largest slip of a foot in a stride, over the stride length [1].
         ``worst_touch_downs``: touch-downs of a foot in a stride, of the foot furthest from one [1].
     """
-    part = record.time >= SETTLED_S
-    if not record.complete or np.count_nonzero(part) < 2:
+    begin = int(np.searchsorted(record.time, SETTLED_S))
+    if not record.complete or len(record) - begin < 2:
         return dict.fromkeys((LIFT, SLIP, TOUCHES))
-    standing = metrics.stance(record.signals["foot_force"][..., 2])[part]
-    starts = metrics.cycle_starts(record.signals["o1"][part], record.signals["o2"][part])
-    feet = record.signals["foot_position"][part]
-    frequency = metrics.stride_frequency(starts, 1.0 / record.experiment.rate)
-    way = metrics.path_length(record.signals["position"][part])
-    stride = metrics.stride_length(metrics.mean_speed(record.time[part], way), frequency)
-    lifts = _known(metrics.foot_lifts(feet, standing, starts))
-    slips = _known(metrics.slips(feet, standing, starts))
-    touches = _known(metrics.touch_downs_per_stride(standing, starts))
+    feet = Feet(record, slice(begin, None))
+    stride = feet.stride_length
+    lifts, slips, touches = map(_known, (feet.lifts, feet.slips, feet.touch_downs))
     # a foot that never stands has no lift, and one that always stands has no stride
     every = len(lifts) == len(slips) == len(touches) == len(record.legs)
     if not every or stride is None:

@@ -14,6 +14,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from apnc import metrics
+from apnc.feet import Feet
 from apnc.loop.experiment import Experiment
 from apnc.loop.many import walk_many
 from apnc.loop.record import Record
@@ -223,28 +224,22 @@ class _Late:
     """The end of a walk: speed [m/s], turning rate [rad/s], and the feet."""
 
     def __init__(self, record: Record) -> None:
-        part = record.time >= record.time[-1] - LAST_S
-        self.time = record.time[part]
-        self.standing = metrics.stance(record.signals["foot_force"][..., 2])[part]
-        self.starts = metrics.cycle_starts(record.signals["o1"][part], record.signals["o2"][part])
-        self.feet = record.signals["foot_position"][part]
-        yaw = record.signals["rpy"][:, 2]
-        ahead = metrics.smoothed_speed(record.time, record.signals["position"], yaw)
+        time, yaw = record.time, record.signals["rpy"][:, 2]
+        part = slice(int(np.searchsorted(time, time[-1] - LAST_S)), None)
+        self.feet = Feet(record, part)
+        ahead = metrics.smoothed_speed(time, record.signals["position"], yaw)
         self.speed = float(ahead[part].mean())
         turned = metrics.turned(yaw[part]) or 0.0
-        self.turning = turned / float(self.time[-1] - self.time[0])
-        self._rate = metrics.stride_frequency(self.starts, 1.0 / record.experiment.rate)
+        self.turning = turned / float(time[-1] - time[part][0])
 
     def foot_costs(self) -> float:
         """Feet that lift, do not slip and touch once, sum over the legs and three figures."""
-        stride = max(self.speed, 0.02) / (self._rate or 1.0)
-        lifts = metrics.foot_lifts(self.feet, self.standing, self.starts)
-        slips = metrics.slips(self.feet, self.standing, self.starts)
-        touches = metrics.touch_downs_per_stride(self.standing, self.starts)
+        stride = max(self.speed, 0.02) / (self.feet.stride_frequency or 1.0)
+        feet = self.feet
         return (
-            _sum(lifts, lambda lift: min(1.0, max(0.0, 1.0 - lift / WANTED_LIFT)))
-            + _sum(slips, lambda slip: min(2.0, max(0.0, slip / stride / WANTED_SLIP - 1.0)))
-            + _sum(touches, lambda count: min(1.0, abs(count - 1.0)))
+            _sum(feet.lifts, lambda lift: min(1.0, max(0.0, 1.0 - lift / WANTED_LIFT)))
+            + _sum(feet.slips, lambda slip: min(2.0, max(0.0, slip / stride / WANTED_SLIP - 1.0)))
+            + _sum(feet.touch_downs, lambda count: min(1.0, abs(count - 1.0)))
         )
 
 

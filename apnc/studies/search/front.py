@@ -16,6 +16,7 @@ import numpy as np
 import typer
 from numpy.typing import ArrayLike, NDArray
 
+from apnc.features import walk_features
 from apnc.loop.experiment import Experiment
 from apnc.loop.many import walk_many
 from apnc.loop.record import Record
@@ -24,7 +25,6 @@ from apnc.studies.results import Result
 from apnc.studies.search.command import run, tracked
 from apnc.studies.search.design import Candidate, built_robot, design_variables, gains, start
 from apnc.studies.study import SCHEDULE_MI, WALK_MI
-from apnc.summary import summarise
 from apnc_plant.robot import load_robot
 
 MI_VALUES: Final = (0.06, WALK_MI, 0.10, 0.12, SCHEDULE_MI, 0.20, 0.28, 0.34, 0.40)
@@ -108,7 +108,7 @@ def walks_of(candidate: Candidate, robot: str, seeds: int) -> list[Experiment]:
 
 def result_of(record: Record) -> Result:
     """Figures of one walk."""
-    return summarise(record).to_dict() | gait.measure(record)
+    return walk_features(record).to_dict() | gait.measure(record)
 
 
 def measured(walks: Sequence[Result], seeds: int) -> dict[str, float]:

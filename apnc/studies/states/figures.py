@@ -9,11 +9,12 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from apnc.features import walk_features
 from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import conditions_of
 from apnc.loop.record import Record
-from apnc.loop.simulate import simulate
 from apnc.loop.schedule import steps_of
+from apnc.loop.simulate import simulate
 from apnc.report import theme
 from apnc.report.figure import Figure, Trace
 from apnc.report.figures import all_figures
@@ -23,7 +24,6 @@ from apnc.studies.plots import side_by_side
 from apnc.studies.results import Result, values
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.study import Robot
-from apnc.summary import summarise
 from apnc_core import load
 
 COUPLINGS: Final = {"apnc": "with ANC", "apc": "without ANC"}
@@ -61,7 +61,7 @@ def scenes(robot: Robot) -> list[Figure]:
 
 def over_time(record: Record, words: str) -> list[Figure]:
     """Command, loads and the ``PANELS`` of a run, with the states marked."""
-    run = Run(record, summarise(record))
+    run = Run(record, walk_features(record))
     panels = [_loads(run), *(panel for panel in all_figures(run) if panel.key in PANELS)]
     return [
         replace(

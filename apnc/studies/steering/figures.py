@@ -9,10 +9,11 @@ from typing import Final
 import numpy as np
 
 from apnc import metrics
+from apnc.features import walk_features
 from apnc.loop.engines import COMPILED
 from apnc.loop.record import Record
-from apnc.loop.simulate import simulate
 from apnc.loop.schedule import steps_of
+from apnc.loop.simulate import simulate
 from apnc.report import theme
 from apnc.report.encoding import float32
 from apnc.report.figure import Figure, Trace
@@ -22,7 +23,6 @@ from apnc.studies.plots import COLOURS, side_by_side
 from apnc.studies.results import Result, matching, values
 from apnc.studies.steering.schedules import SPEED, SPEEDS, YAW_RATE, experiment
 from apnc.studies.study import Robot
-from apnc.summary import summarise
 from apnc_core.types import Array
 
 WAYS: Final = ("straight", "right", "left", "straight again")
@@ -56,7 +56,7 @@ def scenes(robot: Robot) -> list[Figure]:
 
 def speeds_over_time(record: Record) -> Figure:
     """MI, speed, path length and stride frequency over the schedule of speeds."""
-    run, plant, time = Run(record, summarise(record)), record.signals, record.time
+    run, plant, time = Run(record, walk_features(record)), record.signals, record.time
     (velocity_x, velocity_y, _), yaw = plant["velocity"].T, plant["rpy"][:, 2]
     ahead = velocity_x * np.cos(yaw) + velocity_y * np.sin(yaw)
     slow = metrics.smoothed_speed(time, plant["position"], yaw)
@@ -83,7 +83,7 @@ def speeds_over_time(record: Record) -> Figure:
 
 def turns_over_time(record: Record) -> Figure:
     """Steering, hip commands of the front legs, yaw and yaw rate over the schedule of turns."""
-    run, time = Run(record, summarise(record)), record.time
+    run, time = Run(record, walk_features(record)), record.time
     yaw = np.unwrap(record.signals["rpy"][:, 2])
     hips = np.degrees(record.signals["theta_hip"]).T
     front = {leg: hip for leg, hip in zip(record.legs, hips, strict=True) if leg.endswith("F")}

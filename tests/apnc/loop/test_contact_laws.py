@@ -5,18 +5,18 @@ from __future__ import annotations
 import own_contact_exudyn
 import pytest
 
+from apnc.features import WalkFeatures, walk_features
 from apnc.loop.experiment import Experiment
 from apnc.loop.simulate import simulate
-from apnc.summary import Summary, summarise
 from apnc_plant.legged import LeggedPlant
 from apnc_plant.options import PlantOptions
 
 
-def walked(experiment: Experiment, kind: type[LeggedPlant] | None = None) -> Summary:
-    """Summary of a walk, in a plant of this kind if one is given."""
+def walked(experiment: Experiment, kind: type[LeggedPlant] | None = None) -> WalkFeatures:
+    """What is measured of a walk, in a plant of this kind if one is given."""
     options = PlantOptions(step=experiment.step)
     plant = kind and kind(experiment.description, experiment.seed, options=options)
-    return summarise(simulate(experiment, plant=plant))
+    return walk_features(simulate(experiment, plant=plant))
 
 
 def test_the_trot_forms_under_exudyns_contact_as_under_ours() -> None:

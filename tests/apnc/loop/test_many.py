@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from apnc.features import walk_features
 from apnc.loop import controller_library as loader
 from apnc.loop.batch import Batch, Run, lanes_of
 from apnc.loop.experiment import Experiment
 from apnc.loop.many import compiled, simulate_many, walk_many
 from apnc.loop.record import End, Record
 from apnc.loop.simulate import simulate
-from apnc.summary import summarise
 from apnc_plant.ground import Kerb, Obstacles
 from apnc_plant.robot import load_robot
 
@@ -61,7 +61,7 @@ def test_each_walks_as_it_walks_alone(workers: int) -> None:
     summaries = simulate_many(runs, workers=workers)
     for summary, record in zip(summaries, alone, strict=True):
         assert summary is not None
-        assert replace(summary, **TIMED) == replace(summarise(record), **TIMED)
+        assert replace(summary, **TIMED) == replace(walk_features(record), **TIMED)
 
 
 def test_another_engine_walks_in_c_and_the_record_says_so() -> None:

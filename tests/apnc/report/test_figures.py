@@ -10,11 +10,11 @@ import pytest
 from records import FOOT_RADIUS, QUADRUPED, synthetic_record
 from traces import axis_of, numbers
 
+from apnc.features import walk_features
 from apnc.loop.record import Record
 from apnc.report import figures, theme
 from apnc.report.figure import Figure
 from apnc.report.panels import Run
-from apnc.summary import summarise
 from apnc_core.types import Array
 from apnc_plant.ground import Ground, Kerb, Obstacles, Plane
 from apnc_plant.signals import PLANT_SIGNALS
@@ -38,7 +38,7 @@ RECORD = distinct(synthetic_record(10.0, PHASES, yaw=0.7))
 
 
 def drawn(key: str, record: Record = RECORD, **summary: Any) -> Figure:
-    run = Run(record, replace(summarise(record), **summary))
+    run = Run(record, replace(walk_features(record), **summary))
     return {f.key: f for f in figures.all_figures(run)}[key]
 
 
@@ -254,7 +254,7 @@ def test_clearance_is_measured_along_the_normal_of_a_slope() -> None:
 
 
 def test_every_panel_over_time_has_a_unit_and_none_lacks_a_note() -> None:
-    for figure in figures.all_figures(Run(RECORD, summarise(RECORD))):
+    for figure in figures.all_figures(Run(RECORD, walk_features(RECORD))):
         assert figure.note and figure.title
         titles = [v["title"]["text"] for k, v in figure.layout.items() if k[1:5] == "axis"]
         assert all("[" in title for title in titles if title != "leg"), figure.key

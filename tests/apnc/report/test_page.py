@@ -13,13 +13,13 @@ import pytest
 from browser import console_lines, look, needs_browser
 from records import FEMUR, TIBIA, TRIPOD, synthetic_record
 
+from apnc.features import WalkFeatures, walk_features
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import End, Record
 from apnc.report.page import drawable, render
 from apnc.report.samples import SHOWN
 from apnc.report.skeleton import leg_chains, trunk_corners
 from apnc.report.wording import facts, heading, rows, verdicts
-from apnc.summary import Summary, summarise
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Obstacles
 
@@ -60,7 +60,7 @@ RUNS = {
 
 
 def written(record: Record, path: Path) -> Path:
-    path.write_text(render(record, summarise(record)), encoding="utf-8")
+    path.write_text(render(record, walk_features(record)), encoding="utf-8")
     return path
 
 
@@ -198,7 +198,7 @@ def test_undefined_samples_are_gaps(tmp_path: Path) -> None:
 def test_text_of_the_run_is_escaped() -> None:
     record = synthetic_record(1.0)
     robot = replace(record.robot, name="<script>alert(1)</script>")
-    text = render(replace(record, robot=robot), summarise(record))
+    text = render(replace(record, robot=robot), walk_features(record))
     assert "alert(1)" in text
     assert "<script>alert(1)" not in text
 
@@ -208,7 +208,7 @@ def test_the_end_of_a_diverged_motion_is_not_drawn_and_that_is_said() -> None:
     shown = drawable(record)
     assert len(shown) == len(record) - 20
     assert all(len(v) == len(shown) for v in shown.signals.values())
-    assert "From 4.67 s on the motion has no scale" in render(record, summarise(record))
+    assert "From 4.67 s on the motion has no scale" in render(record, walk_features(record))
     # A sound run keeps all, whatever the numbers are.
     assert len(drawable(replace(record, end=End.complete))) == len(record)
     slow = synthetic_record(2.0)
@@ -251,7 +251,7 @@ def test_pitch_and_roll_tilt_the_robot(points: Any) -> None:
     assert z[front].mean() < z[hind].mean() - 0.005
 
 
-GOOD = replace(summarise(synthetic_record(10.0)), convergence_time_s=2.0)
+GOOD = replace(walk_features(synthetic_record(10.0)), convergence_time_s=2.0)
 
 
 @pytest.mark.parametrize(
@@ -318,7 +318,7 @@ def test_feet_are_told_one_by_one() -> None:
 
 
 def test_target_gait_has_its_name() -> None:
-    six: Summary = summarise(synthetic_record(5.0, TRIPOD))
+    six: WalkFeatures = walk_features(synthetic_record(5.0, TRIPOD))
     assert verdicts(six, 5.0)[1].question == "Did the tripod form?"
     assert "Tripod, strict" in [name for name, _, _ in rows(six)]
 
@@ -362,7 +362,7 @@ def test_facts_name_robot_preset_condition_ground_parameters_and_memory() -> Non
 
 def test_page_carries_the_whole_experiment_and_the_command() -> None:
     record = synthetic_record(1.0)
-    text = render(record, summarise(record))
+    text = render(record, walk_features(record))
     assert f"<code>{record.experiment.command()}</code>" in text
     for name in ("robot_weight", "numpy", "conditions"):
         assert f"<code>{name}</code>" in text

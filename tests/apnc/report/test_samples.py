@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from records import synthetic_record
 
+from apnc.features import walk_features
 from apnc.report.page import render
 from apnc.report.samples import LATE_S, SHOWN, Samples
-from apnc.summary import summarise
 
 
 def test_a_short_run_is_shown_whole() -> None:
@@ -64,7 +64,7 @@ def test_the_report_of_an_hour_is_small_and_says_that_it_is_thinned() -> None:
         time=np.arange(60 * len(minute)) / 60.0,
         signals={k: np.concatenate([v] * 60) for k, v in minute.signals.items()},
     )
-    text = render(hour, summarise(hour))
+    text = render(hour, walk_features(hour))
     assert len(text) < 30e6
     assert "A long run" in text
     assert '"opensAt":3589.' in text

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from records import synthetic_record
 
+from apnc.features import WalkFeatures, walk_features
 from apnc.report.wording import rows, verdicts
-from apnc.summary import Summary, summarise
 
 SHOWN = {
     "path_speed_m_per_s": ("Speed along the path", 0.123, "0.123 m/s"),
@@ -29,9 +29,9 @@ SHOWN = {
 """Figures: name in the table, a value like no other, and how it reads."""
 
 
-def told() -> Summary:
+def told() -> WalkFeatures:
     figures = {name: value for name, (_, value, _) in SHOWN.items()}
-    return replace(summarise(synthetic_record(10.0)), **figures)  # type: ignore[arg-type]
+    return replace(walk_features(synthetic_record(10.0)), **figures)  # type: ignore[arg-type]
 
 
 def test_every_figure_stands_under_its_name() -> None:

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 from records import FOOT_RADIUS, HEIGHT, synthetic_record
 
-from apnc.summary import summarise
+from apnc.features import walk_features
 from research.docs import film
 
 WALK = synthetic_record(20.0, frequency=1.5, speed=0.09, yaw=0.6)
@@ -32,7 +32,7 @@ def test_the_frame_follows_place_and_heading() -> None:
 def test_the_film_shows_whole_strides_at_a_quarter_of_the_speed(tmp_path: Path) -> None:
     part = film.steady_part(WALK)
     assert part.time[0] == pytest.approx(12.0) and len(part.signals["grf"]) == len(part) == 480
-    view, feet = film.View(part), summarise(part)
+    view, feet = film.View(part), walk_features(part)
     film.film(view, feet, tmp_path / "walk.gif")
     with Image.open(tmp_path / "walk.gif") as picture:
         # three strides of 2/3 s, four times as long, 25 pictures a second
@@ -53,7 +53,7 @@ def test_the_sheet_tells_the_feet(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     canvas = film.Canvas
     monkeypatch.setattr(canvas, "text", lambda self, x, y, text, *more: words.append(text))
     part = film.steady_part(WALK)
-    feet = replace(summarise(part), slip_share={"RF": 0.12, "RH": None, "LF": 0.0, "LH": 0.3})
+    feet = replace(walk_features(part), slip_share={"RF": 0.12, "RH": None, "LF": 0.0, "LH": 0.3})
     film.sheet(film.View(part), feet, tmp_path / "feet.png")
     assert words[0] == "MI 0.08: 0.090 m/s, 1.50 strides/s, trot"
     assert "RF lift 15.0 mm" in words and "LH lift 15.0 mm" in words

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from records import synthetic_record
 
+from apnc.features import walk_features
 from apnc.loop.columns import column_names
 from apnc.report.figures import all_figures
 from apnc.report.panels import Run
-from apnc.summary import summarise
 from apnc_plant.signals import JOINT_SIGNS
 from research.docs import DOCS
 from research.docs.record import page
@@ -39,7 +39,9 @@ def test_every_column_of_a_run_has_its_row_with_unit_and_meaning() -> None:
 def test_the_signs_of_the_joints_are_told_in_the_same_words_everywhere() -> None:
     pages = [(DOCS / page).read_text(encoding="utf-8") for page in ("record.md", "robots/own.md")]
     record = synthetic_record(1.0)
-    notes = [f.note for f in all_figures(Run(record, summarise(record))) if f.key in JOINT_SIGNS]
+    notes = [
+        f.note for f in all_figures(Run(record, walk_features(record))) if f.key in JOINT_SIGNS
+    ]
     assert len(notes) == 2
     for joint, effect in JOINT_SIGNS.items():
         assert f"{joint}: {effect}" in pages[0]

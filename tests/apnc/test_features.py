@@ -1,4 +1,4 @@
-"""The summary of made-up runs, figure by figure, for every way in which a run can end."""
+"""What is measured of made-up runs, figure by figure, for every way in which a run can end."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from records import (
 )
 
 from apnc import metrics
-from apnc.summary import Summary, summarise
+from apnc.features import WalkFeatures, walk_features
 from apnc_core import __version__
 
 PI = np.pi
@@ -47,7 +47,7 @@ def ended(record: Record, end: End, message: str = "") -> Record:
     return replace(record, end=end, message=message)
 
 
-def figures(summary: Summary) -> dict[str, Any]:
+def figures(summary: WalkFeatures) -> dict[str, Any]:
     """What was measured of the gait and the motion."""
     asked = {
         "controller",
@@ -72,7 +72,7 @@ def is_empty(value: Any) -> bool:
 def test_a_known_walk() -> None:
     walk = synthetic_record(45.0, duty=0.6, speed=0.08, frequency=1.5, yaw=0.4)
     experiment = replace(walk.experiment, mi=0.15, seed=3, controller="tegotae")
-    s = summarise(replace(walk, experiment=experiment))
+    s = walk_features(replace(walk, experiment=experiment))
     assert (s.controller, s.mi, s.seed, s.version) == ("tegotae", 0.15, 3, __version__)
     assert (s.end, s.message, s.complete, s.fell) == ("complete", "", True, False)
     assert s.duration_s == 45.0
@@ -103,12 +103,12 @@ def test_a_known_walk() -> None:
     assert s.stored_at_s == pytest.approx(4 * np.log(5), abs=1 / RATE)
     assert s.real_time_factor == pytest.approx(10.0)
     assert s.fmu_share_of_wall_time == pytest.approx(0.05)
-    assert summarise(replace(walk, wall_s=0.5)).real_time_factor == pytest.approx(90.0)
+    assert walk_features(replace(walk, wall_s=0.5)).real_time_factor == pytest.approx(90.0)
 
 
 def test_every_figure_is_in_the_dictionary_and_in_json() -> None:
-    s = summarise(synthetic_record(5.0))
-    assert list(s.to_dict()) == [field.name for field in fields(Summary)]
+    s = walk_features(synthetic_record(5.0))
+    assert list(s.to_dict()) == [field.name for field in fields(WalkFeatures)]
     loaded = json.loads(s.to_json())
     assert list(loaded) == list(s.to_dict())
     assert loaded["duty_factor"] == s.duty_factor and loaded["phi_final"] == list(s.phi_final)
@@ -116,7 +116,7 @@ def test_every_figure_is_in_the_dictionary_and_in_json() -> None:
 
 
 def test_the_path_is_the_headline() -> None:
-    names = [field.name for field in fields(Summary)]
+    names = [field.name for field in fields(WalkFeatures)]
     order = ["path_speed_m_per_s", "turned_deg", "speed_m_per_s", "distance_m"]
     assert names.index(order[0]) < names.index("speed_m_per_s")
     assert [name for name in names if name in order] == order
@@ -127,7 +127,7 @@ def test_a_curve(side: float) -> None:
     walk = synthetic_record(20.0)
     angle = 1.25 * 2 * PI * walk.time / walk.time[-1]
     forward, left = 0.2 * np.sin(angle), side * 0.2 * (1 - np.cos(angle))
-    s = summarise(moving_on(walk, forward, left, metrics.wrap(side * angle)))
+    s = walk_features(moving_on(walk, forward, left, metrics.wrap(side * angle)))
     assert s.turned_deg == pytest.approx(side * 450.0)
     way = 1.25 * 2 * PI * 0.2 / walk.time[-1]
     assert s.path_speed_m_per_s == pytest.approx(way, rel=0.03)
@@ -140,7 +140,7 @@ def test_cost_of_transport() -> None:
     walk = synthetic_record(20.0, speed=0.1)
     power = np.arange(12).reshape(4, 3)  # 66 W in all
     work = 7.0 + walk.time[:, None, None] * power
-    s = summarise(with_signals(walk, joint_work=work))
+    s = walk_features(with_signals(walk, joint_work=work))
     assert s.cost_of_transport == pytest.approx(66.0 / (MASS * 9.81 * 0.1))
 
 
@@ -151,7 +151,7 @@ def test_cost_of_transport_is_over_the_path_not_the_way_ahead() -> None:
     angle = 2.0 * PI * walk.time / walk.time[-1]  # once round a circle of 0.4 m, back to its start
     forward, left = 0.4 * np.sin(angle), 0.4 * (1.0 - np.cos(angle))
     round_trip = moving_on(walk, forward, left, metrics.wrap(angle))
-    s = summarise(with_signals(round_trip, joint_work=work))
+    s = walk_features(with_signals(round_trip, joint_work=work))
     assert s.distance_m == pytest.approx(0.0, abs=1e-9)
     spent, path = power.sum() * walk.time[-1], 2.0 * PI * 0.4
     assert s.cost_of_transport == pytest.approx(spent / (MASS * 9.81 * path), rel=0.03)
@@ -161,10 +161,10 @@ def test_late_figures_are_of_the_last_ten_seconds() -> None:
     walk = synthetic_record(30.0, speed=0.1, formation=(2.0, 5.0))
     late = np.maximum(walk.time - walk.time[-1] + 10.0, 0.0)
     moved = moving_on(walk, 0.1 * walk.time + 0.05 * late, 0 * late, 0 * late)
-    s = summarise(moved)
+    s = walk_features(moved)
     assert s.late_speed_m_per_s == pytest.approx(0.15, abs=0.002)
     assert s.largest_late_error_rad == pytest.approx(0.0, abs=1e-6)
-    assert summarise(synthetic_record(14.0, formation=(2.0, 5.0))).largest_late_error_rad == (
+    assert walk_features(synthetic_record(14.0, formation=(2.0, 5.0))).largest_late_error_rad == (
         pytest.approx(PI - PI * (3.98 - 2.0) / 3, abs=0.05)
     )
 
@@ -173,7 +173,7 @@ def test_the_last_ten_seconds_begin_with_a_sample() -> None:
     walk = synthetic_record(2.0, formation=(0.0, 3.0))  # 120 samples, taken as those of 30 s
     t = np.arange(120) / 4
     slow = replace(walk, time=t, experiment=replace(walk.experiment, rate=4.0))
-    s = summarise(moving_on(slow, 0.005 * t**2, 0 * t, 0 * t))
+    s = walk_features(moving_on(slow, 0.005 * t**2, 0 * t, 0 * t))
     late = t[-41:]
     # The speed is 0.01 t, but a difference to one side at the last sample.
     assert s.late_speed_m_per_s == pytest.approx(0.01 * (late.mean() - 0.125 / 41))
@@ -182,14 +182,14 @@ def test_the_last_ten_seconds_begin_with_a_sample() -> None:
 
 
 def test_each_criterion_has_its_own_figure() -> None:
-    s = summarise(synthetic_record(20.0, formation=(2.0, 12.0)))
+    s = walk_features(synthetic_record(20.0, formation=(2.0, 12.0)))
     assert s.convergence_time_s == pytest.approx(2 + 10 * (PI - 0.6) / PI, abs=0.1)
     assert s.convergence_time_authors_s == pytest.approx(
         2 + 10 * (PI - 2.8 / np.sqrt(2)) / PI, abs=0.1
     )
     assert s.converged is True
     # Distance to (pi, pi, 0) is 2.1 rad, below 2.8, although no pair of legs is in trot.
-    near = summarise(synthetic_record(20.0, (PI - 1.2, PI - 1.2, 1.2)))
+    near = walk_features(synthetic_record(20.0, (PI - 1.2, PI - 1.2, 1.2)))
     assert near.convergence_time_authors_s == 0.0
     assert (near.converged, near.convergence_time_s, near.gait) == (False, None, None)
     assert near.largest_late_error_rad == pytest.approx(1.2)
@@ -197,7 +197,7 @@ def test_each_criterion_has_its_own_figure() -> None:
 
 def test_times_count_from_the_touch_moment() -> None:
     walk = synthetic_record(20.0, formation=(2.0, 12.0), air_time=4.0)
-    s, at_once = summarise(walk), summarise(synthetic_record(20.0, formation=(2.0, 12.0)))
+    s, at_once = walk_features(walk), walk_features(synthetic_record(20.0, formation=(2.0, 12.0)))
     late = walk.time[metrics.touch_moment(walk.signals["foot_force"][..., 2], MASS * 9.81) or 0]
     assert late == pytest.approx(4.0, abs=0.4)
     for name in ("convergence_time_s", "convergence_time_authors_s"):
@@ -217,7 +217,7 @@ def test_what_is_before_the_touch_moment_counts_for_nothing_else() -> None:
     feet[flying] *= 50.0
     place = walk.signals["position"] * np.where(flying, 50.0, 1.0)[:, None]
     falling = with_signals(walk, o1=o1, o2=o2, rpy=rpy, foot_position=feet, position=place)
-    s, without = summarise(falling), summarise(clean)
+    s, without = walk_features(falling), walk_features(clean)
     assert s.stride_frequency_hz == pytest.approx(without.stride_frequency_hz)
     assert s.stride_length_mm == pytest.approx(without.stride_length_mm)
     assert s.balance == pytest.approx(without.balance, rel=0.02)
@@ -228,7 +228,7 @@ def test_what_is_before_the_touch_moment_counts_for_nothing_else() -> None:
 
 
 def test_a_robot_that_never_touches_the_ground() -> None:
-    s = summarise(synthetic_record(5.0, air_time=9.0))
+    s = walk_features(synthetic_record(5.0, air_time=9.0))
     assert (s.converged, s.convergence_time_s, s.convergence_time_authors_s) == (False, None, None)
     assert s.duty_factor_mean == 0.0 and s.foot_lift_mm == dict.fromkeys(QUADRUPED)
 
@@ -241,7 +241,7 @@ def test_coordination_is_of_the_worst_leg() -> None:
     cycle = np.floor((theta + PI / 2) / (2 * PI))
     force[cycle % 2 == 1, 0, 2] = 0.0
     force[:, 1:, 2] = force[:, 2:3, 2]
-    s = summarise(with_signals(walk, foot_force=force))
+    s = walk_features(with_signals(walk, foot_force=force))
     share = 2 * (s.duty_factor["RF"] or 0.0)
     assert share == pytest.approx(0.5 * (1 - 2 * np.arcsin(0.1) / PI), abs=0.03)
     assert s.coordination == pytest.approx(2 / share, rel=0.03)
@@ -257,7 +257,7 @@ def test_figures_per_leg_belong_to_their_leg() -> None:
     feet[..., 1] += 0.01 * n * walk.time[:, None]
     force[::2, 3, 2] = 0.0
     varied = with_signals(walk, foot_position=feet, foot_force=force)
-    s = summarise(varied)
+    s = walk_features(varied)
     assert list(s.foot_lift_mm) == list(QUADRUPED)
     assert list(s.foot_lift_mm.values())[:3] == pytest.approx([0.0, 15.0, 30.0], abs=0.2)
     slip = list(s.slip_per_stride_mm.values())
@@ -276,12 +276,12 @@ def test_figures_per_leg_belong_to_their_leg() -> None:
 
 def test_a_robot_that_stands_has_neither_balance_nor_coordination() -> None:
     walk = synthetic_record(20.0, speed=0.0)
-    s = summarise(walk)
+    s = walk_features(walk)
     assert s.path_speed_m_per_s == pytest.approx(0.0, abs=1e-6)
     assert (s.balance, s.coordination, s.cost_of_transport) == (None, None, None)
     assert s.stride_length_mm is None and s.slip_share == dict.fromkeys(QUADRUPED)
     assert s.slip_per_stride_mm["RF"] is not None
-    slow = summarise(synthetic_record(20.0, speed=0.0051))
+    slow = walk_features(synthetic_record(20.0, speed=0.0051))
     assert slow.balance is not None and slow.cost_of_transport is not None
     assert slow.stride_length_mm == pytest.approx(5.1 / 1.4)
 
@@ -294,17 +294,17 @@ def test_a_robot_that_stands_has_neither_balance_nor_coordination() -> None:
     ],
 )
 def test_other_numbers_of_legs(legs: tuple[str, ...], target: tuple[float, ...], name: str) -> None:
-    s = summarise(synthetic_record(10.0, target))
+    s = walk_features(synthetic_record(10.0, target))
     assert s.converged and s.gait == name and s.phi_target == target
     assert tuple(s.duty_factor) == legs and len(s.phi_final) == len(legs) - 1
-    wrong = summarise(synthetic_record(10.0, (0.0,) * len(target)))
+    wrong = walk_features(synthetic_record(10.0, (0.0,) * len(target)))
     assert wrong.converged is False and wrong.gait == "pronk"
 
 
 def test_legs_without_a_known_gait() -> None:
     walk = synthetic_record(10.0)
     signals = {k: v[:, :3] if v.ndim > 1 else v for k, v in walk.signals.items()}
-    s = summarise(replace(walk, legs=("RF", "RH", "L"), signals=signals))
+    s = walk_features(replace(walk, legs=("RF", "RH", "L"), signals=signals))
     assert (s.converged, s.phi_target, s.gait) == (None, None, None)
     assert (s.convergence_time_s, s.convergence_time_authors_s) == (None, None)
     assert s.largest_late_error_rad is None
@@ -312,7 +312,7 @@ def test_legs_without_a_known_gait() -> None:
 
 
 def test_a_fall_is_no_convergence_but_a_walk_until_then() -> None:
-    s = summarise(ended(synthetic_record(12.5), End.fell, "at 12.50 s"))
+    s = walk_features(ended(synthetic_record(12.5), End.fell, "at 12.50 s"))
     assert (s.end, s.fell, s.complete, s.message) == ("fell", True, False, "at 12.50 s")
     assert (s.converged, s.convergence_time_s, s.convergence_time_authors_s) == (False, None, None)
     assert s.duration_s == 12.5
@@ -323,7 +323,7 @@ def test_a_fall_is_no_convergence_but_a_walk_until_then() -> None:
 def test_nothing_is_measured_of_a_diverged_run() -> None:
     walk = synthetic_record(12.5)
     thrown = with_signals(walk, position=1e45 * walk.signals["position"])
-    s = summarise(ended(thrown, End.diverged, "velocity beyond 100 m/s"))
+    s = walk_features(ended(thrown, End.diverged, "velocity beyond 100 m/s"))
     assert (s.end, s.fell, s.complete) == ("diverged", False, False)
     assert (s.message, s.duration_s, s.converged) == ("velocity beyond 100 m/s", 12.5, False)
     assert {name for name, value in figures(s).items() if not is_empty(value)} == set()
@@ -337,7 +337,7 @@ def test_nothing_is_measured_of_values_that_are_not_finite(signal: str, value: f
     walk = synthetic_record(5.0)
     broken = walk.signals[signal].copy()
     broken.flat[100] = value
-    s = summarise(with_signals(walk, **{signal: broken}))
+    s = walk_features(with_signals(walk, **{signal: broken}))
     assert {name for name, entry in figures(s).items() if not is_empty(entry)} == set()
 
 
@@ -345,14 +345,14 @@ def test_no_figure_is_infinite() -> None:
     walk = synthetic_record(5.0)
     thrown = with_signals(walk, position=1e200 * walk.signals["position"])
     with np.errstate(all="ignore"):
-        s = summarise(thrown)
+        s = walk_features(thrown)
     assert s.path_speed_m_per_s is None
     json.loads(s.to_json(), parse_constant=pytest.fail)
 
 
 @pytest.mark.parametrize("samples", [0, 1, 2, 10, 100])
 def test_an_interrupted_run_of_any_length(samples: int) -> None:
-    s = summarise(synthetic_record(samples / RATE, complete=False, speed=0.0))
+    s = walk_features(synthetic_record(samples / RATE, complete=False, speed=0.0))
     loaded = json.loads(s.to_json(), parse_constant=pytest.fail)
     assert (loaded["end"], loaded["complete"], loaded["fell"]) == ("interrupted", False, False)
     assert loaded["duration_s"] == pytest.approx(samples / RATE)
@@ -361,20 +361,20 @@ def test_an_interrupted_run_of_any_length(samples: int) -> None:
 
 
 def test_zero_ticks_have_no_figures() -> None:
-    s = summarise(replace(synthetic_record(0.0, complete=False), wall_s=0.0))
+    s = walk_features(replace(synthetic_record(0.0, complete=False), wall_s=0.0))
     assert {name for name, value in figures(s).items() if not is_empty(value)} == set()
     assert (s.duration_s, s.converged, s.phi_target) == (0.0, None, TROT)
     assert (s.real_time_factor, s.fmu_share_of_wall_time) == (None, None)
 
 
 def test_durations_are_round() -> None:
-    assert summarise(synthetic_record(600.0)).duration_s == 600.0
+    assert walk_features(synthetic_record(600.0)).duration_s == 600.0
 
 
 def test_rate_of_the_experiment_is_that_of_the_samples() -> None:
     walk = synthetic_record(10.0, formation=(0.0, 12.0))
     slower = replace(walk, time=2 * walk.time, experiment=replace(walk.experiment, rate=RATE / 2))
-    s = summarise(slower)
+    s = walk_features(slower)
     # Two of four legs gain half a turn in 24 s.
     assert s.stride_frequency_hz == pytest.approx(0.7 + 0.5 / 48)
     # The mean over the last second is that of the last 30 samples.
@@ -385,14 +385,14 @@ def test_rate_of_the_experiment_is_that_of_the_samples() -> None:
 def test_steps_of_a_command_are_kept() -> None:
     walk = synthetic_record(5.0)
     steps = ((0.0, 0.08), (2.0, 0.15))
-    s = summarise(replace(walk, experiment=replace(walk.experiment, mi=steps)))
+    s = walk_features(replace(walk, experiment=replace(walk.experiment, mi=steps)))
     assert s.mi == steps
 
 
 @pytest.mark.parametrize(("duration", "measured"), [(1.0, False), (6.0, True)])
 def test_a_fall_at_once_is_no_walk_to_measure(duration: float, measured: bool) -> None:
     record = replace(synthetic_record(duration), end=End.fell)
-    summary = summarise(record)
+    summary = walk_features(record)
     assert summary.fell and not summary.converged
     assert (summary.path_speed_m_per_s is not None) is measured
     assert (summary.balance is not None) is measured
@@ -407,4 +407,4 @@ def test_signals_may_lie_in_memory_in_any_order(
     walk = synthetic_record(10.0, formation=(1.0, 3.0))
     signals = {name: laid_out(v) for name, v in walk.signals.items()}
     assert not signals["o1"].flags.c_contiguous
-    assert summarise(with_signals(walk, **signals)) == summarise(walk)
+    assert walk_features(with_signals(walk, **signals)) == walk_features(walk)
