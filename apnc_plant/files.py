@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from difflib import get_close_matches
 from functools import cache, wraps
 from pathlib import Path
@@ -55,10 +55,14 @@ def checked(error: type[ValueError]) -> Callable[[type[Model]], type[Model]]:
     def decorate(cls: type[Model]) -> type[Model]:
         made: Any = dataclass(frozen=True)(cls)
         made.__pydantic_config__ = ConfigDict(extra="forbid")
+        names = [each.name for each in fields(made)]
 
         @wraps(made.__init__)
         def init(self: Model, *args: Any, **values: Any) -> None:
-            given = ArgsKwargs(in_python(args), {k: in_python(v) for k, v in values.items()})
+            named = dict(zip(names, args, strict=False))  # so that an error names the field
+            if len(named) < len(args) or named.keys() & values.keys():
+                raise TypeError(f"{cls.__name__} takes each of {', '.join(names)} once")
+            given = ArgsKwargs((), {k: in_python(v) for k, v in (named | values).items()})
             try:
                 _adapter(made).validator.validate_python(given, self_instance=self)
             except ValidationError as refused:

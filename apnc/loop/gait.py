@@ -1,27 +1,31 @@
-"""Learned gaits as files: the phase relations that the neural couplings hold."""
+"""Stored gaits as files: the phase relations that the neural couplings hold."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any, Final
+from typing import Annotated, Any, Final, Literal
 
 from apnc.loop.last_sample import last_sample
-from apnc_core.in_python import in_python
 from apnc_core.variables import variable_named
+from apnc_plant.files import Number, checked, checked_file, limits
 
 FORMAT: Final = "apnc-gait"
 VERSION: Final = 1
 
+_LIMITS: Final = variable_named("phi_stored")
+
 
 class GaitError(ValueError):
-    """A gait file, or a run, that holds no usable gait, in one line."""
+    """A file or a run that holds no usable gait, in one line."""
 
 
-@dataclass(frozen=True)
+Relation = Annotated[Number, limits("rad", ge=_LIMITS.min, le=_LIMITS.max)]
+
+
+@checked(GaitError)
 class Gait:
     """A stored gait.
 
@@ -31,32 +35,16 @@ class Gait:
             that leg leads the first (Eq. 12).
 
     Raises:
-        GaitError: numbers that do not fit or are out of range.
+        GaitError: values that do not fit or are out of range.
     """
 
     legs: tuple[str, ...]
-    phi: tuple[float, ...]
+    phi: tuple[Relation, ...]
 
     def __post_init__(self) -> None:
-        """Check that there is a usable relation per leg."""
-        for name in ("legs", "phi"):
-            entries = in_python(getattr(self, name))
-            if not isinstance(entries, list | tuple):
-                raise GaitError(f"{name} = {entries!r} is not one entry per leg")
-            object.__setattr__(self, name, tuple(entries))
-        for leg in self.legs:
-            if not isinstance(leg, str):
-                raise GaitError(f"leg {leg!r} is not a name")
-        limits = variable_named("phi_stored")
-        assert limits.min is not None and limits.max is not None
+        """Check that there is a relation for every leg but the first."""
         if len(self.phi) != len(self.legs) - 1:
-            raise GaitError(f"{len(self.phi)} relations do not fit {len(self.legs)} legs")
-        for leg, angle in zip(self.legs[1:], self.phi, strict=True):
-            number = isinstance(angle, int | float) and not isinstance(angle, bool)
-            if not (number and math.isfinite(angle) and limits.min <= angle <= limits.max):
-                allowed = f"{limits.min:g} ... {limits.max:g} rad"
-                raise GaitError(f"relation of leg {leg} is {angle}; {allowed} is allowed")
-        object.__setattr__(self, "phi", tuple(map(float, self.phi)))
+            raise ValueError(f"{len(self.phi)} relations do not fit {len(self.legs)} legs")
 
     def settings(self, legs: tuple[str, ...]) -> dict[str, Any]:
         """Parameters of the FMU that start it with this gait on a robot with these legs.
@@ -94,6 +82,24 @@ def gait_of_run(folder: Path | str) -> Gait:
     return Gait(legs, tuple(last[name] for name in relations))
 
 
+@checked(GaitError)
+class _GaitFile:
+    """What a gait file holds, with its checksum."""
+
+    format: Literal["apnc-gait"]
+    version: Literal[1]
+    unit: Literal["rad"]
+    legs: tuple[str, ...]
+    phi: tuple[Relation, ...]
+    sha256: str
+
+    def __post_init__(self) -> None:
+        """Check that nothing was changed since the file was written."""
+        content = asdict(self)
+        if content.pop("sha256") != _checksum(content):
+            raise ValueError("damaged: its checksum does not fit")
+
+
 def _checksum(content: dict[str, Any]) -> str:
     text = json.dumps(content, sort_keys=True, allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()
@@ -106,8 +112,6 @@ def write_gait(gait: Gait, path: Path | str) -> None:
         OSError: the file cannot be written.
     """
     content = {"format": FORMAT, "version": VERSION, "unit": "rad", **asdict(gait)}
-    # what the checksum sees is what a reader of the file sees: lists, not tuples
-    content = json.loads(json.dumps(content))
     text = json.dumps({**content, "sha256": _checksum(content)}, indent=2, allow_nan=False)
     Path(path).write_text(text + "\n", encoding="utf-8")
 
@@ -119,21 +123,9 @@ def read_gait(path: Path | str) -> Gait:
         GaitError: no file, a damaged or a foreign one.
     """
     try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise GaitError(f"{path} cannot be read: {error.strerror}") from None
-    except (ValueError, RecursionError):
-        raise GaitError(f"{path} is not a gait file, or damaged: not JSON") from None
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise GaitError(f"{path} is not a gait file")
-    if content.get("version") != VERSION:
-        raise GaitError(f"{path} has version {content.get('version')}; {VERSION} is known")
-    claimed = content.pop("sha256", None)
-    if claimed != _checksum(content):
-        raise GaitError(f"{path} is damaged: its checksum does not fit")
-    try:
-        return Gait(content["legs"], content["phi"])
-    except KeyError as error:
-        raise GaitError(f"{path} is damaged: it has no {error}") from None
+        found = checked_file(_GaitFile, path)
+        return Gait(found.legs, found.phi)
     except GaitError as error:
         raise GaitError(f"{path}: {error}") from None
+    except ValueError as error:
+        raise GaitError(f"gait file {error}") from None

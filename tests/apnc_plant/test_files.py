@@ -132,3 +132,14 @@ def test_a_long_value_is_cut() -> None:
     with pytest.raises(PartError) as caught:
         Part(size=(1.0, 2.0), **values)
     assert len(str(caught.value)) < 300
+
+
+def test_values_given_by_position_are_named_by_their_field() -> None:
+    assert Part(1.0, (1.0, 2.0)) == Part(mass=1.0, size=(1.0, 2.0))
+    with pytest.raises(PartError, match=r"^size\[2\] is 0\.0; allowed"):
+        Part(1.0, (1.0, 0.0))
+    for args, values in (((1.0,), {"mass": 1.0}), ((1.0, (1.0, 2.0), "box", 0, "a", 5), {})):
+        with pytest.raises(
+            TypeError, match="Part takes each of mass, size, kind, teeth, name once"
+        ):
+            Part(*args, **values)  # type: ignore[arg-type]

@@ -89,7 +89,7 @@ def test_studies_are_listed_with_title_and_place(capsys: pytest.CaptureFixture[s
         (["walk", "--condition", "C9"], "conditions 'C9' are not one of"),
         (["walk", "--fmu", "no.fmu"], "no.fmu: no such file"),
         (["walk", "--fmu", "text.fmu"], "text.fmu: not an FMU"),
-        (["walk", "--gait", "text.fmu"], "text.fmu is not a gait file"),
+        (["walk", "--gait", "text.fmu"], "gait file text.fmu: not readable as JSON"),
         (["walk", "--output", "text.fmu/x"], "output folder text.fmu/x cannot be written"),
         (["walk", "--json", "."], "file . is a folder"),
         (["walk", "--json", "new/"], "'--json': new/ is a folder; allowed: a file"),

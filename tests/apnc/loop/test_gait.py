@@ -73,7 +73,7 @@ HEAD = "RF.o1,LF.o1,phi_memory12,kappa\n"
         ("", "record.csv is not the record of a walk"),
         ("a,b\n1,2\n", "record.csv is not the record of a walk"),
         ("RF.o1,LF.o1,phi_memory13,kappa\n0,0,3.1,1\n", "record.csv is not the record of a walk"),
-        (f"{HEAD}0,0,99,1\n", "relation of leg LF is 99.0"),
+        (f"{HEAD}0,0,99,1\n", "phi[1] is 99.0; allowed: a finite number from -7 to 7 [rad]"),
     ],
 )
 def test_a_damaged_or_foreign_record_is_named_with_its_line(
@@ -104,17 +104,23 @@ def signed(**changes: object) -> str:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("{", "not JSON"),
-        ("[1, 2]", "is not a gait file"),
-        ('{"format": "other"}', "is not a gait file"),
-        (changed(version=2), "has version 2; 1 is known"),
-        (changed(), "checksum does not fit"),
+        ("{", "not readable as JSON"),
+        ("[1, 2]", "gait file .*: not a table"),
+        ('{"format": "other"}', "format is 'other'; allowed: apnc-gait"),
+        (changed(version=2), "version is 2; allowed: 1"),
+        (changed(), "sha256 is missing"),
         (changed(sha256="0" * 64), "checksum does not fit"),
-        ("[" * 100_000, "not JSON"),
-        (signed(legs=["RF", 5], phi=[1.0]), r"gait\.json: leg 5 is not a name"),
-        (signed(legs=["RF", "LF"], phi=["x"]), r"gait\.json: relation of leg LF is x"),
-        (signed(legs=["RF", "LF"], phi=1.0), r"gait\.json: phi = 1\.0 is not one entry per leg"),
-        (signed(legs="RF"), r"gait\.json: legs = 'RF' is not one entry per leg"),
+        ("[" * 100_000, "not readable as JSON"),
+        (signed(legs=["RF", 5], phi=[1.0]), r"gait\.json: legs\[2\] is 5; allowed: a text"),
+        (
+            signed(legs=["RF", "LF"], phi=["x"]),
+            r"gait\.json: phi\[1\] is 'x'; allowed: a finite number from -7 to 7 \[rad\]",
+        ),
+        (
+            signed(legs=["RF", "LF"], phi=1.0),
+            r"gait\.json: phi is 1\.0; allowed: a list of finite numbers",
+        ),
+        (signed(legs="RF"), r"gait\.json: legs is 'RF'; allowed: a list of texts"),
     ],
 )
 def test_foreign_and_damaged_files_are_refused(text: str, words: str, tmp_path: Path) -> None:
@@ -133,14 +139,14 @@ def test_one_changed_digit_is_noticed(tmp_path: Path) -> None:
 
 
 def test_missing_file_is_named(tmp_path: Path) -> None:
-    with pytest.raises(GaitError, match=r"no\.json cannot be read"):
+    with pytest.raises(GaitError, match=r"no\.json: cannot be read"):
         read_gait(tmp_path / "no.json")
 
 
 @pytest.mark.parametrize(
     ("phi", "words"),
-    [((1.0,), "1 relations do not fit 4 legs"), ((1.0, math.nan, 0.0), "relation of leg LF is nan"),
-     ((1.0, 2.0, 99.0), "relation of leg LH is 99.0")],
+    [((1.0,), "1 relations do not fit 4 legs"), ((1.0, math.nan, 0.0), r"phi\[2\] is nan"),
+     ((1.0, 2.0, 99.0), r"phi\[3\] is 99\.0")],
 )  # fmt: skip
 def test_unusable_relations_are_refused(phi: tuple[float, ...], words: str) -> None:
     with pytest.raises(GaitError, match=words):

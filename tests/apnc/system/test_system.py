@@ -231,7 +231,7 @@ def test_numbers_that_no_robot_has_are_refused(numbers: dict[str, float], words:
     [
         (["build-system", "--output", "x.fmu"], "x.fmu does not end in .ssp"),
         (["build-system", "--naming", "cow"], "naming 'cow' is not one of structured"),
-        (["build-system", "--gait", "no.json"], "no.json cannot be read"),
+        (["build-system", "--gait", "no.json"], "no.json: cannot be read"),
         (["build-system", "--condition", "C9"], "conditions 'C9' are not one of"),
         (["build-system", "--payload", "-1"], "payload is -1.0; allowed:"),
         (["build-system", "--set", "servo.damping=x"], "servo.damping = 'x'; allowed: a number"),
