@@ -1,6 +1,6 @@
 """Robots that do not form the gait: one without any asymmetry, and one on feet that bounce.
 
-``python -m research.engines.limits`` prints the table of docs/engines.md.
+``python -m research.engines.limits`` prints the table of docs/engines/walks.md.
 """
 
 from __future__ import annotations
