@@ -133,7 +133,10 @@ def test_what_is_neither_is_refused_for_what_it_is(change: dict[str, Any], words
         (lambda: Conditions(payload="heavy"), "payload is 'heavy'; allowed: a finite number"),
         (lambda: Conditions(stuck={"RF": None}), "stuck.RF is None; allowed: a finite number"),
         (lambda: PlantOptions(clearance="low"), "clearance is 'low'; allowed: a finite number"),
-        (lambda: Gait(("RF", "RH"), ("x",)), "phi[1] is 'x'; allowed: a finite number from -7 to 7 [rad]"),
+        (
+            lambda: Gait(("RF", "RH"), ("x",)),
+            "phi[1] is 'x'; allowed: a finite number from -7 to 7 [rad]",
+        ),
         (lambda: Gait(("RF", 3), (1.0,)), "legs[2] is 3; allowed: a text"),
         (lambda: Gait("RF", (1.0,)), "legs is 'RF'; allowed: a list of texts"),
         (lambda: grid_of("mi", 2.5), "trials = 2.5 is not a whole number"),

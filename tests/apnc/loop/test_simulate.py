@@ -136,3 +136,28 @@ def test_seed_and_ground_reach_the_plant() -> None:
     places = [walk.signals["foot_position"] for walk in walks]
     assert not np.array_equal(places[0], places[1])
     assert not np.array_equal(places[0], places[2])
+
+
+class Clock:
+    """A clock that is a second further each time it is read."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+
+    def perf_counter(self) -> float:
+        self.now += 1.0
+        return self.now
+
+
+def test_time_of_the_controller_is_that_of_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = Clock()
+    monkeypatch.setattr("apnc.loop.simulate.time", clock)
+    monkeypatch.setattr("apnc.loop.fmu_controller.time", clock)
+    record = simulate(Experiment(duration=0.5), plant=Noting())
+    assert len(record) == 30
+    assert record.fmu_wall_s == 30.0  # read at the start and the end of each step
+    assert record.wall_s == 61.0  # and at the start and the end of the walk
+
+
+def test_time_of_the_controller_is_measured_in_c() -> None:
+    assert simulate(Experiment(duration=1.0, engine="compiled")).fmu_wall_s > 0.0

@@ -6,21 +6,16 @@ import html.parser
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from browser import console_lines, look, needs_browser
-from records import FEMUR, TIBIA, TRIPOD, synthetic_record
+from records import TRIPOD, synthetic_record
 
-from apnc.features import WalkFeatures, walk_features
-from apnc.loop.experiment import Experiment
+from apnc.features import walk_features
 from apnc.loop.record import End, Record
 from apnc.report.page import drawable, render
 from apnc.report.samples import SHOWN
-from apnc.report.skeleton import leg_chains, trunk_corners
-from apnc.report.wording import facts, heading, rows, verdicts
-from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Obstacles
 
 KEYS = {
@@ -214,150 +209,6 @@ def test_the_end_of_a_diverged_motion_is_not_drawn_and_that_is_said() -> None:
     slow = synthetic_record(2.0)
     slow.signals["joint_work"][:] = 1e6
     assert len(drawable(replace(slow, end=End.diverged))) == len(slow)
-
-
-def test_knees_close_the_legs() -> None:
-    record = synthetic_record(3.0, roll_amplitude=0.0, pitch_amplitude=0.0, yaw=0.7)
-    hip1, hip2, knee, foot = np.moveaxis(leg_chains(record.robot, record.signals), 2, 0)
-    assert np.linalg.norm(hip2 - hip1, axis=-1) == pytest.approx(0.03)
-    assert np.linalg.norm(knee - hip2, axis=-1) == pytest.approx(FEMUR)
-    # Holds only if the knee found from the angles fits the recorded foot.
-    assert np.linalg.norm(foot - knee, axis=-1) == pytest.approx(TIBIA)
-
-
-def test_positive_hip_and_abduction_swing_forward_and_to_the_left() -> None:
-    record = synthetic_record(0.1, roll_amplitude=0.0, pitch_amplitude=0.0)
-    before = leg_chains(record.robot, record.signals)[0, :, 2]
-    record.signals["joint_angle"][..., :2] += 0.1
-    after = leg_chains(record.robot, record.signals)[0, :, 2]
-    assert np.all(after[:, 0] > before[:, 0])
-    assert np.all(after[:, 1] > before[:, 1])
-
-
-@pytest.mark.parametrize("points", [leg_chains, trunk_corners])
-def test_pitch_and_roll_tilt_the_robot(points: Any) -> None:
-    record = synthetic_record(0.1)
-    lower, upper = (
-        (slice(0, 2), slice(2, 4)) if points is leg_chains else (slice(0, 4), slice(4, 8))
-    )
-    record.signals["rpy"][:] = [0.1, 0.0, 0.0]
-    z = points(record.robot, record.signals)[0][..., 2].reshape(upper.stop, -1)[:, 0]
-    # Positive roll lifts the left side (y > 0): legs LF and LH, the second half of the corners.
-    assert z[upper].mean() > z[lower].mean() + 0.005
-    record.signals["rpy"][:] = [0.0, 0.1, 0.0]
-    front, hind = ([0, 2], [1, 3]) if points is leg_chains else ([2, 3, 6, 7], [0, 1, 4, 5])
-    z = points(record.robot, record.signals)[0][..., 2].reshape(upper.stop, -1)[:, 0]
-    # Positive pitch lowers the nose.
-    assert z[front].mean() < z[hind].mean() - 0.005
-
-
-GOOD = replace(walk_features(synthetic_record(10.0)), convergence_time_s=2.0)
-
-
-@pytest.mark.parametrize(
-    ("change", "answers", "moods"),
-    [
-        ({}, ["Yes", "After 2.0\xa0s"], ["good", "good"]),
-        ({"end": "fell", "complete": False}, ["It fell", "–"], ["bad", "plain"]),
-        ({"end": "diverged", "complete": False}, ["It diverged", "–"], ["bad", "plain"]),
-        ({"end": "interrupted", "complete": False}, ["Interrupted", "After 2.0\xa0s"], None),
-        ({"path_speed_m_per_s": 0.001}, ["No", "After 2.0\xa0s"], ["bad", "good"]),
-        # Net displacement says nothing about a walk in a curve.
-        ({"speed_m_per_s": -0.05, "distance_m": 0.1}, ["Yes", "After 2.0\xa0s"], None),
-        ({"converged": False}, ["Yes", "Not for good"], ["good", "fair"]),
-        ({"converged": False, "convergence_time_authors_s": None}, ["Yes", "No"], ["good", "bad"]),
-        ({"converged": None}, ["Yes", "–"], ["good", "plain"]),
-    ],
-)
-def test_head_says_what_happened(
-    change: dict[str, Any], answers: list[str], moods: list[str] | None
-) -> None:
-    found = verdicts(replace(GOOD, **change), 10.0)
-    assert [v.answer for v in found[:2]] == answers
-    assert moods is None or [v.mood for v in found[:2]] == moods
-
-
-@pytest.mark.parametrize("end", ["fell", "diverged", "interrupted"])
-def test_an_early_end_is_said_with_its_time(end: str) -> None:
-    walked = verdicts(replace(GOOD, end=end, complete=False, duration_s=7.25), 45.0)[0]
-    assert walked.detail.startswith("at 7.25\xa0s")
-    table = {name: (value, note) for name, value, note in rows(replace(GOOD, end=end))}
-    assert table["Simulated"][1] == end
-
-
-def test_path_speed_and_turn_lead_and_what_is_undefined_is_a_dash() -> None:
-    curve = replace(GOOD, path_speed_m_per_s=0.146, turned_deg=-204.0, distance_m=0.17)
-    fast = verdicts(curve, 45.0)[2]
-    assert fast.answer == "0.146\xa0m/s"
-    assert "turned 204° to the right" in fast.detail
-    names = [name for name, _, _ in rows(curve)]
-    assert names[:3] == ["Speed along the path", "Turned", "Net displacement"]
-    standing = replace(GOOD, balance=None, coordination=None, path_speed_m_per_s=None)
-    table = {name: value for name, value, _ in rows(standing)}
-    assert table["Balance"] == table["Coordination"] == table["Speed along the path"] == "–"
-    notes = {name: note for name, _, note in rows(GOOD)}
-    assert "larger is steadier" in notes["Balance"]
-    assert "larger is more even" in notes["Coordination"]
-
-
-def test_feet_are_told_one_by_one() -> None:
-    legs = ("RF", "RH", "LF", "LH")
-    feet = replace(
-        GOOD,
-        stride_length_mm=71.24,
-        touch_downs_per_stride=1.26,
-        touch_downs_by_leg=dict(zip(legs, (1.0, 2.0, 1.0, 1.04), strict=True)),
-        slip_share=dict(zip(legs, (0.116, None, 0.0, 0.35), strict=True)),
-    )
-    table = {name: value for name, value, _ in rows(feet)}
-    assert table["Stride length"] == "71.2\xa0mm"
-    assert table["Touch-downs per stride"] == (
-        "RF\xa01.00, RH\xa02.00, LF\xa01.00, LH\xa01.04; mean 1.26"
-    )
-    assert table["Slip share"] == "RF\xa012, RH\xa0–, LF\xa00, LH\xa035"
-
-
-def test_target_gait_has_its_name() -> None:
-    six: WalkFeatures = walk_features(synthetic_record(5.0, TRIPOD))
-    assert verdicts(six, 5.0)[1].question == "Did the tripod form?"
-    assert "Tripod, strict" in [name for name, _, _ in rows(six)]
-
-
-def test_heading_says_what_is_not_default() -> None:
-    assert heading(Experiment()) == "all as by default"
-    experiment = Experiment(
-        robot="hexapod",
-        preset="paper",
-        mi=((0.0, 0.15), (25.0, 0.4)),
-        conditions="C4",
-        ground=Obstacles(roughness=0.5),
-        settings={"xi": 0.05},
-        rate=50.0,
-    )
-    expected = (
-        "hexapod, MI 0:0.15,25:0.4, preset paper, obstacles:roughness=0.5, C4, rate 50 Hz, xi 0.05"
-    )
-    assert heading(experiment) == expected
-    damaged = Conditions(damaged=("RF",), payload=0.5)
-    assert heading(Experiment(conditions=damaged)) == "payload 0.5, damaged RF"
-
-
-def test_facts_name_robot_preset_condition_ground_parameters_and_memory() -> None:
-    record = synthetic_record(0.1)
-    experiment = replace(
-        record.experiment,
-        conditions="C4",
-        ground=Obstacles(roughness=0.5),
-        settings={"xi": 0.05, "stored": True, "phi_stored": (3.0, 3.0, 0.0)},
-    )
-    found = dict(facts(replace(record, experiment=experiment)))
-    assert found["Robot"] == "lilibot, 2.50 kg, legs RF, RH, LF, LH"
-    assert found["Controller"] == "apnc, preset robot, 60 Hz"
-    assert found["Changed parameters"] == "xi 0.05, stored True"
-    assert found["Stored gait"] == "φ 3 3 0 rad at the start"
-    assert found["Conditions"] == "C4"
-    assert found["Ground"] == "obstacles:roughness=0.5"
-    assert dict(facts(record))["Stored gait"] == "none at the start"
 
 
 def test_page_carries_the_whole_experiment_and_the_command() -> None:
