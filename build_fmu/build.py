@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import importlib.resources
-import tempfile
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,7 +12,7 @@ from typing import Final
 
 import apnc_core
 from build_fmu import sources
-from build_fmu.cache import cache_folder, write_atomically
+from build_fmu.cache import cache_folder, temporary_folder
 from build_fmu.compile import NO_COMPILER, Progress, compile_library, compiler_version
 from build_fmu.controller import controller_model
 from build_fmu.documentation import controller_documentation
@@ -23,8 +22,9 @@ from build_fmu.model_description_fmi3 import build_description, model_descriptio
 from build_fmu.options import BuildOptions
 from build_fmu.package import zip_fmu
 from build_fmu.platforms import MODEL, PLATFORMS, BuildError, host_platform, place, placed
+from build_fmu.writing import write_atomically
 
-__all__ = ["build_key", "cache_folder", "cached_fmu", "fmu_bytes", "host_fmu", "write_atomically"]
+__all__ = ["build_key", "cache_folder", "cached_fmu", "fmu_bytes", "host_fmu"]
 
 READY: Final = Path(__file__).parent / "ready"
 """Folder of the FMUs that came with the package; each file is named by the key of its build."""
@@ -86,7 +86,7 @@ def built(
         content["sources/buildDescription.xml"] = build_description(model, c_files)
     content |= {f"sources/{name}": text for name, text in files.items()}
     content |= pages
-    with tempfile.TemporaryDirectory() as folder:
+    with temporary_folder() as folder:
         for name, text in files.items():
             (Path(folder) / name).write_bytes(text)
         libraries = {}

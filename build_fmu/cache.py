@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import stat
 import tempfile
-import threading
 from functools import cache
 from pathlib import Path
 
@@ -24,6 +23,11 @@ def cache_folder() -> Path:
     return Path(chosen) if chosen else _usual()
 
 
+def temporary_folder() -> tempfile.TemporaryDirectory[str]:
+    """New folder in this user's temporary folder, removed with what is in it when it is closed."""
+    return tempfile.TemporaryDirectory(dir=_temporary(), ignore_cleanup_errors=True)
+
+
 @cache
 def _usual() -> Path:
     folder = Path(platformdirs.user_cache_dir("apnc"))
@@ -36,6 +40,7 @@ def _usual() -> Path:
 
 
 def _temporary() -> Path:
+    """Temporary folder of this user; a new one if that of the usual name is not safe."""
     user = os.getuid() if hasattr(os, "getuid") else "user"
     folder = Path(tempfile.gettempdir()) / f"apnc-{user}"
     folder.mkdir(mode=0o700, exist_ok=True)
@@ -45,11 +50,3 @@ def _temporary() -> Path:
     return (
         folder if mine and stat.S_ISDIR(found.st_mode) else Path(tempfile.mkdtemp(prefix="apnc-"))
     )
-
-
-def write_atomically(path: Path, content: bytes) -> None:
-    """Write a file at once: neither a reader nor a second writer ever sees a part of it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.{os.getpid()}.{threading.get_ident()}.part")
-    part.write_bytes(content)
-    part.replace(path)

@@ -6,12 +6,11 @@ import importlib.metadata
 import os
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
-from build_fmu.cache import cache_folder
+from build_fmu.cache import cache_folder, temporary_folder
 from build_fmu.platforms import MODEL, BuildError, Platform
 
 Progress = Callable[[str], None]
@@ -74,7 +73,7 @@ def compile_library(
         raise BuildError(NO_COMPILER)
     # zig compiles its runtime library once per platform and keeps it in this cache
     caches = {"ZIG_GLOBAL_CACHE_DIR": str(cache_folder() / "zig")}
-    with tempfile.TemporaryDirectory() as out:
+    with temporary_folder() as out:
         library = Path(out) / (name + platform.suffix)
         command = [
             *(sys.executable, "-m", "ziglang", "cc", "-target", platform.zig_target),

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import importlib.resources
-import tempfile
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Final
 
 from build_fmu import compile as compiler
-from build_fmu.cache import cache_folder, write_atomically
+from build_fmu.cache import cache_folder, temporary_folder
 from build_fmu.compile import Progress
 from build_fmu.platforms import PLATFORMS, BuildError, Platform, host_platform
+from build_fmu.writing import write_atomically
 
 READY: Final = Path(__file__).parent / "ready"
 """Folder of the libraries that came with the package; each file is named by its key."""
@@ -86,7 +86,7 @@ def library_path(platform: str | None = None, progress: Progress = lambda platfo
 
 def _built(platform: Platform) -> bytes:
     files = sources()
-    with tempfile.TemporaryDirectory() as folder:
+    with temporary_folder() as folder:
         for name, content in files.items():
             (Path(folder) / name).write_bytes(content)
         c_files = [name for name in files if name.endswith(".c")]

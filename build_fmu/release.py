@@ -12,9 +12,9 @@ from typing import Final
 import apnc_core
 from apnc_core.legs import leg_names
 from build_fmu.build import cached_fmu
-from build_fmu.cache import write_atomically
 from build_fmu.options import BuildOptions
 from build_fmu.platforms import PLATFORMS
+from build_fmu.writing import write_atomically
 
 LEGS: Final = (4, 6)
 VARIANTS: Final[tuple[tuple[str, BuildOptions, str], ...]] = tuple(

@@ -11,10 +11,10 @@ from lxml import etree
 from apnc_core.schema import Causality, Shape, Type, Variable
 from apnc_core.settings import Setting, SettingLike
 from apnc_core.variables import variables_of
-from build_fmu.cache import write_atomically
 from build_fmu.description_parts import UNITS, number
 from build_fmu.options import NAMINGS, checked
 from build_fmu.platforms import BuildError
+from build_fmu.writing import write_atomically
 
 _SSV: Final = "http://ssp-standard.org/SSP1/SystemStructureParameterValues"
 _SSC: Final = "http://ssp-standard.org/SSP1/SystemStructureCommon"

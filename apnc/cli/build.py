@@ -38,9 +38,10 @@ def build(
     from apnc.loop.gait import read_gait
     from apnc.loop.parameters import read_parameters
     from apnc_core.settings import parse
-    from build_fmu.build import cached_fmu, write_atomically
+    from build_fmu.build import cached_fmu
     from build_fmu.options import BuildOptions
     from build_fmu.release import release as build_release
+    from build_fmu.writing import write_atomically
 
     with status("building") as shown:
         if release:

@@ -29,6 +29,7 @@ def export_robot(
     """Write a robot as MJCF (MuJoCo) or URDF (ROS): masses, joints, servos, feet, sensors."""
     from apnc_plant.robot import load_robot
     from apnc_plant.robot.names import plain_name
+    from build_fmu.writing import write_atomically
 
     if form not in FORMATS:
         raise ValueError(f"format '{form}' is not one of {', '.join(FORMATS)}")
@@ -50,7 +51,7 @@ def export_robot(
             raise ValueError(needs("mujoco"))
         text, suffix = export_mjcf(own, servo="position" if servo is None else servo), "xml"
     path = _file("./" if output is None else output, f"{plain_name(own.name)}.{suffix}")
-    writable(path, file=True).write_text(text, encoding="utf-8")
+    write_atomically(writable(path, file=True), text.encode())
     say(f"{path}: {own.name}, {len(own.legs)} legs, {own.mass:.3g} kg, {form.upper()}")
 
 

@@ -27,7 +27,7 @@ def build_plant(
     """Build the robot as an FMU, in C: it needs no Python where it runs."""
     from apnc.cli.build import platform_names
     from apnc.system.plant_fmu import PlantBuild, plant_fmu, plant_model
-    from build_fmu.cache import write_atomically
+    from build_fmu.writing import write_atomically
 
     with status("building") as shown:
         wanted = PlantBuild(robot, naming, fmi, platform_names(platform), enumerations)

@@ -103,18 +103,17 @@ def walk(
         record = apnc.simulate(experiment, progress=progress, stop=STOP)
     if len(record) == 0:
         raise Interrupted(NOTHING)
-    from apnc.report.folder import summary_text, write_together
+    from apnc.report.folder import summary_text
     from apnc.report.wording import rows
+    from build_fmu.writing import write_atomically
 
     summary = apnc.write_report(record, output)
     if json_path:
-        text = summary_text(record, summary).encode()
-        write_together(json_path.parent, {json_path.name: lambda path: path.write_bytes(text)})
+        write_atomically(json_path, summary_text(record, summary).encode())
     if mcap_path:
         from apnc.report.mcap_file import write_mcap
 
-        log = {mcap_path.name: lambda path: write_mcap(record, path)}
-        write_together(mcap_path.parent, log)
+        write_atomically(mcap_path, lambda path: write_mcap(record, path))
     show_table(rows(summary))
     say(f"report: {output}/report.html")
     why = f": {record.message}" if record.message else ""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import tempfile
 import threading
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -26,6 +25,7 @@ from apnc_core.schema import Causality, Type
 from apnc_core.settings import SettingLike
 from apnc_core.variables import Scalar, scalars, variable_named
 from apnc_plant.library import library
+from build_fmu.cache import temporary_folder
 from build_fmu.platforms import BuildError, library_of, why_not_loaded
 
 _FUNCTIONS: Final = {
@@ -77,7 +77,7 @@ class ControllerLibrary:
         self.n_legs, self._naming = names_in(description)
         self._members = members_by_name(self.n_legs, self._naming)
         # the library stays loaded to the end of the process, and so does its folder
-        self._folder = tempfile.TemporaryDirectory(prefix="apnc-", ignore_cleanup_errors=True)
+        self._folder = temporary_folder()
         folder = Path(self._folder.name)
         unpack(path, folder)
         try:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import tempfile
 import time
 import zipfile
 from collections.abc import Mapping, Sequence
@@ -23,6 +22,7 @@ from apnc_core.settings import SettingLike
 from apnc_core.types import Array
 from apnc_core.variables import TABLE, Scalar, scalars, variable_named
 from apnc_plant.trace import Trace
+from build_fmu.cache import temporary_folder
 from build_fmu.platforms import BuildError, library_of, why_not_loaded
 
 _BOOLEANS: Final = {"false": "0", "true": "1"}
@@ -183,7 +183,7 @@ class FmuController(contextlib.ExitStack):
         description = check_fmu(path)
         self.n_legs, self.naming = names_in(description)
         with contextlib.ExitStack() as start:
-            folder = tempfile.TemporaryDirectory(prefix="apnc-", ignore_cleanup_errors=True)
+            folder = temporary_folder()
             self._instantiate(path, description, start.enter_context(folder))
             self._initialise(parameters or {}, start_time)
             self.push(start.pop_all())

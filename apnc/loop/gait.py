@@ -11,6 +11,7 @@ from typing import Annotated, Any, Final, Literal
 from apnc.loop.last_sample import last_sample
 from apnc_core.variables import variable_named
 from apnc_plant.files import Number, checked, checked_file, limits
+from build_fmu.writing import write_atomically
 
 FORMAT: Final = "apnc-gait"
 VERSION: Final = 1
@@ -113,7 +114,7 @@ def write_gait(gait: Gait, path: Path | str) -> None:
     """
     content = {"format": FORMAT, "version": VERSION, "unit": "rad", **asdict(gait)}
     text = json.dumps({**content, "sha256": _checksum(content)}, indent=2, allow_nan=False)
-    Path(path).write_text(text + "\n", encoding="utf-8")
+    write_atomically(Path(path), f"{text}\n".encode())
 
 
 def read_gait(path: Path | str) -> Gait:

@@ -11,7 +11,6 @@ from typing import Final, NamedTuple
 from apnc.controllers import named_controller
 from apnc.loop.provenance import what_was_run
 from apnc.report.figure import Figure
-from apnc.report.folder import Write
 from apnc.report.html import page
 from apnc.studies.claims import Claim, Finding, findings
 from apnc.studies.machine import commit, processor
@@ -19,6 +18,7 @@ from apnc.studies.plots import CRITERIA
 from apnc.studies.results import Result, columns_of, controllers_in, id_of, matching
 from apnc.studies.study import Study, Trial, load
 from apnc.studies.table import markdown
+from build_fmu.writing import Write
 
 TABLE_FILE: Final = "trials.csv"
 

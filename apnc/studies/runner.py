@@ -15,7 +15,6 @@ from apnc.loop.engines import COMPILED
 from apnc.loop.many import Stop, walk_many
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
-from apnc.report.folder import write_together
 from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry, Registry, names_of
 from apnc.studies.report import files_of
 from apnc.studies.results import PHASE, Result, StudyResults, id_of
@@ -23,6 +22,7 @@ from apnc.studies.store import Store
 from apnc.studies.study import Axes, Trial, load
 from apnc.studies.workers import pool, results_of
 from build_fmu.build import host_fmu
+from build_fmu.writing import write_atomically, write_together
 
 StudyProgress = Callable[[int, int, float, float], None]
 """Called with trials done, all trials, simulated time done [s] and simulated time of all [s]."""
@@ -184,10 +184,8 @@ def run_trial(trial: Trial, series: Path | None = None) -> Result:
 
 def _result(trial: Trial, record: Record, series: Path | None) -> Result:
     if series is not None:
-        series.mkdir(exist_ok=True)
         path = series / f"{'-'.join(trial.id)}.csv"
-        write_csv(record, aside := path.with_suffix(".part"))
-        aside.replace(path)
+        write_atomically(path, partial(write_csv, record))
     return _begin(trial) | measured(trial.entry, record)
 
 

@@ -10,8 +10,8 @@ from collections import defaultdict
 from pathlib import Path
 from typing import Final
 
-from apnc.report.locks import locked
 from apnc.studies.results import Result, TrialId, id_of
+from build_fmu.locks import locked
 
 SYNC_S: Final = 1.0
 """Shortest time between two calls of fsync [s]. A call takes some milliseconds."""

@@ -19,10 +19,10 @@ from apnc.system.ssp import SSD_FILE, ssd, ssv, ssv_file
 from apnc.system.structure import plant_build, structure_of
 from apnc_core.settings import Setting
 from build_fmu.build import cached_fmu
-from build_fmu.cache import write_atomically
 from build_fmu.options import BuildOptions
 from build_fmu.package import zip_fmu
 from build_fmu.platforms import host_platform
+from build_fmu.writing import write_atomically
 
 _BESIDE: Final = (OSP_FILE, CONTAINER_FILE, HEADER_FILE)
 """Files of the folder that are not in the archive."""

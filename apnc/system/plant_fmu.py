@@ -15,11 +15,12 @@ from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.variable_numbers import VARIABLE_NUMBERS
 from apnc_plant.variables import ENUMERATIONS, TABLE, starts_of
 from build_fmu import sources
-from build_fmu.build import built, cached_path, write_atomically
+from build_fmu.build import built, cached_path
 from build_fmu.compile import Progress
 from build_fmu.documentation import documentation, page_of
 from build_fmu.model import Model, RealType
 from build_fmu.platforms import PLATFORMS, check_platforms
+from build_fmu.writing import write_atomically
 
 MODEL_SUFFIX: Final = "Plant"
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
-import threading
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -59,16 +57,9 @@ def test_a_link_is_not_followed(no_home: Path) -> None:
     assert cache.cache_folder() != no_home / f"apnc-{os.getuid()}"
 
 
-def test_threads_that_write_the_same_file_do_not_meet(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    both, replace = threading.Barrier(2), Path.replace
-
-    def together(part: Path, target: Path) -> Path:
-        both.wait(10)
-        return replace(part, target)
-
-    monkeypatch.setattr(Path, "replace", together)
-    with ThreadPoolExecutor(2) as threads:
-        list(threads.map(lambda _: cache.write_atomically(tmp_path / "x", b"whole"), range(2)))
-    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"x": b"whole"}
+def test_temporary_folders_lie_in_that_of_the_user_and_go(no_home: Path) -> None:
+    with cache.temporary_folder() as name:
+        folder = Path(name)
+        assert folder.parent.parent == no_home and folder.parent.stat().st_mode & 0o077 == 0
+        (folder / "x").write_text("x")
+    assert not folder.exists() and folder.parent.is_dir()

@@ -15,7 +15,7 @@ import pytest
 
 from apnc_core.schema import Causality, Type
 from apnc_core.variables import scalars
-from build_fmu.build import write_atomically
+from build_fmu.writing import write_atomically
 from build_fmu.options import MODEL, PLATFORMS, host_platform
 
 NATIVE = Path(__file__).parent / "native"
