@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 import apnc_core
-from build_fmu import sources
+from build_fmu import sources, terminals
 from build_fmu.cache import cache_folder, temporary_folder
 from build_fmu.compile import NO_COMPILER, Progress, compile_library, compiler_version
 from build_fmu.controller import controller_model
@@ -84,6 +84,7 @@ def built(
     content = {"modelDescription.xml": _describe(model, c_files, guid)}
     if model.fmi == 3:
         content["sources/buildDescription.xml"] = build_description(model, c_files)
+        content[terminals.PATH] = terminals.terminals_and_icons(model)
     content |= {f"sources/{name}": text for name, text in files.items()}
     content |= pages
     with temporary_folder() as folder:

@@ -46,4 +46,5 @@ def controller_model(options: BuildOptions) -> Model:
         naming=options.naming,
         fmi=options.fmi,
         enumerations_as=options.enumerations,
+        reals=options.reals,
     )

@@ -80,8 +80,11 @@ def initial(v: Variable) -> dict[str, str]:
 def typed_attributes(v: Variable, model: Model) -> dict[str, str]:
     """Declared type, units and range."""
     attributes: dict[str, str] = {}
-    if v.enumeration and model.type_of(v) is Type.integer:
+    kind = model.type_of(v)
+    if v.enumeration and kind is not Type.enumeration:
         return {"min": "1", "max": str(len(v.enumeration.items))}
+    if v.type is Type.boolean and kind is Type.real:
+        return {"min": "0", "max": "1"}
     if v.enumeration:
         attributes["declaredType"] = v.enumeration.name
     elif v.type is Type.real:

@@ -18,6 +18,7 @@ from build_fmu.icon import icon_png
 from build_fmu.model import Model
 from build_fmu.options import BuildOptions, value_in_words
 from build_fmu.reference import FOLDER, TICKS, TOLERANCE, reference_files
+from build_fmu.terminals import ICON
 
 _GREEK: Final = {
     name: chr(code)
@@ -73,7 +74,7 @@ def documentation(model: Model, page: Template, more: Mapping[str, object]) -> d
         "documentation/licenses/license.txt": _template_text("license.txt").encode(),
         "documentation/licenses/fmi_headers.txt": _licence_of_the_headers().encode(),
     }
-    icon = "model.png" if model.fmi == 2 else "terminalsAndIcons/icon.png"
+    icon = "model.png" if model.fmi == 2 else ICON
     return files | {icon: icon_png()}
 
 
@@ -100,7 +101,7 @@ def _rendered(model: Model, page: Template, more: Mapping[str, object]) -> str:
 def _entry(model: Model, v: Variable) -> str:
     """``leg[1].grf ... leg[4].grf``, or the one name of a scalar."""
     count = model.count(v)
-    if model.fmi == 3:
+    if model.arrays:
         return v.name if v.shape is Shape.scalar else f"{v.name} [{count}]"
     first, last = (v.scalar_name(i, model.naming) for i in (0, count - 1))
     return first if count == 1 else f"{first} ... {last}"

@@ -53,9 +53,11 @@ class Model:
         types: type of real numbers by unit.
         log_categories: description of each log category.
         step: communication step of the default experiment [s].
-        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``), for FMI 2.0.
+        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``). In FMI 3.0 the first
+            shows arrays and the second a scalar per entry.
         fmi: version of the standard, 2 or 3.
         enumerations_as: ``enumeration``, or ``integer`` for importers that drop enumerations.
+        reals: whether every variable is shown as a Real, for importers that read all of them so.
 
     Raises:
         BuildError: naming, version or form of enumerations outside what is allowed.
@@ -74,6 +76,7 @@ class Model:
     naming: str = "structured"
     fmi: int = 2
     enumerations_as: str = "enumeration"
+    reals: bool = False
 
     def __post_init__(self) -> None:
         """Check the choices."""
@@ -106,7 +109,9 @@ class Model:
         return () if v.start is None else (v.start,) * self.count(v)
 
     def type_of(self, v: Variable) -> Type:
-        """FMI type of a variable; an enumeration is an integer if the build says so."""
+        """FMI type of a variable, which the build may choose simpler than the table."""
+        if self.reals:
+            return Type.real
         if v.enumeration and self.enumerations_as == "integer":
             return Type.integer
         return v.type
@@ -118,11 +123,16 @@ class Model:
         return tuple(unit for unit in self.types if unit in used)
 
     def describe(self, v: Variable) -> str:
-        """Description of a variable, with the items of an enumeration that is an integer."""
-        if v.enumeration and self.type_of(v) is Type.integer:
+        """Description of a variable, with the items of an enumeration that is a number."""
+        if v.enumeration and self.type_of(v) is not Type.enumeration:
             items = ", ".join(f"{item.value} {item.name}" for item in v.enumeration.items)
             return f"{v.description}: {items}"
         return v.description
+
+    @property
+    def arrays(self) -> bool:
+        """Whether a variable with several entries is an array."""
+        return self.fmi == 3 and self.naming == "structured"
 
     def describe_entry(self, v: Variable, element: int) -> str:
         """Description of one entry of a variable, with the leg or the legs it belongs to."""

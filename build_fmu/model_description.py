@@ -93,7 +93,7 @@ def _scalar_variable(parent: etree._Element, member: Scalar, model: Model) -> No
     )
     typed = etree.SubElement(element, model.type_of(v).value, **typed_attributes(v, model))
     for value in model.start(v)[member.element : member.element + 1]:
-        typed.set("start", number(value))
+        typed.set("start", number(float(value) if model.reals else value))
 
 
 def _structure(parent: etree._Element, members: list[Scalar], model: Model) -> None:

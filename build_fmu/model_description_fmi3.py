@@ -1,12 +1,16 @@
-"""modelDescription.xml of FMI 3.0, from the table of variables: legs as arrays."""
+"""modelDescription.xml of FMI 3.0, from the table of variables.
+
+With structured names the entries of a variable are an array, with flat names a scalar each.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final
 
 from lxml import etree
 
-from apnc_core.schema import VR_TIME, Causality, Shape, Type, Variable
+from apnc_core.schema import VR_TIME, Causality, Scalar, Shape, Type, Value, Variable
 from build_fmu.description_parts import (
     ABOUT,
     add_experiment,
@@ -40,7 +44,7 @@ def model_description_fmi3(model: Model, token: str) -> bytes:
         instantiationToken=token,
         description=model.about,
         **ABOUT,
-        variableNamingConvention="structured",
+        variableNamingConvention=model.naming,
     )
     etree.SubElement(
         root,
@@ -65,8 +69,12 @@ def model_description_fmi3(model: Model, token: str) -> bytes:
         variability="continuous",
         unit="s",
     )
-    for variable in model.table:
-        _add_variable(variables, variable, model)
+    if model.arrays:
+        for v in model.table:
+            _add_array(variables, v, model)
+    else:
+        for member in model.scalars():
+            _add_scalar(variables, member, model)
     _add_structure(etree.SubElement(root, "ModelStructure"), model)
     text: bytes = etree.tostring(root, pretty_print=True, xml_declaration=True, encoding="UTF-8")
     return text
@@ -98,32 +106,68 @@ def _add_types(parent: etree._Element, model: Model) -> None:
             )
 
 
-def _add_variable(parent: etree._Element, v: Variable, model: Model) -> None:
+def _add_array(parent: etree._Element, v: Variable, model: Model) -> None:
+    """A variable with all its entries; one entry is no array."""
+    described = (v.name, model.reference(v), model.describe(v))
+    element = _add_variable(parent, v, model, *described, model.start(v))
+    if v.shape is not Shape.scalar:
+        etree.SubElement(element, "Dimension", start=str(model.count(v)))
+
+
+def _add_scalar(parent: etree._Element, member: Scalar, model: Model) -> None:
+    """One entry of a variable as a variable of its own."""
+    v, element = member.variable, member.element
+    described = (member.name, member.value_reference, model.describe_entry(v, element))
+    _add_variable(parent, v, model, *described, model.start(v)[element : element + 1])
+
+
+def _add_variable(
+    parent: etree._Element,
+    v: Variable,
+    model: Model,
+    name: str,
+    reference: int,
+    description: str,
+    start: tuple[Value, ...],
+) -> etree._Element:
     element = etree.SubElement(
         parent,
         _TAGS[model.type_of(v)],
-        name=v.name,
-        valueReference=str(model.reference(v)),
-        description=model.describe(v),
+        name=name,
+        valueReference=str(reference),
+        description=description,
         causality=v.causality.value,
         variability=v.variability,
         **initial(v),
         **typed_attributes(v, model),
     )
-    if start := model.start(v):
-        element.set("start", " ".join(map(number, start)))
-    if v.shape is not Shape.scalar:
-        etree.SubElement(element, "Dimension", start=str(model.count(v)))
+    if start:
+        numbers = [number(float(value) if model.reals else value) for value in start]
+        element.set("start", " ".join(numbers))
+    return element
 
 
 def _add_structure(parent: etree._Element, model: Model) -> None:
     """Outputs change in steps only, so none depends on an input at the same instant."""
-    reference = {v.name: str(model.reference(v)) for v in model.table}
-    outputs = model.variables_of(Causality.output)
-    for v in outputs:
-        etree.SubElement(parent, "Output", valueReference=reference[v.name], dependencies="")
-    for v in outputs:
-        sources = " ".join(sorted((reference[name] for name in v.initial_from), key=int))
+    outputs = [
+        (v, element)
+        for v in model.variables_of(Causality.output)
+        for element in range(1 if model.arrays else model.count(v))
+    ]
+    for v, element in outputs:
+        reference = str(model.reference(v) + element)
+        etree.SubElement(parent, "Output", valueReference=reference, dependencies="")
+    for v, element in outputs:
         etree.SubElement(
-            parent, "InitialUnknown", valueReference=reference[v.name], dependencies=sources
+            parent,
+            "InitialUnknown",
+            valueReference=str(model.reference(v) + element),
+            dependencies=" ".join(map(str, sorted(_sources(v, element, model)))),
         )
+
+
+def _sources(v: Variable, element: int, model: Model) -> Iterator[int]:
+    """Value references of the parameters that determine the initial value of an output."""
+    for name in v.initial_from:
+        source = model.variable_named(name)
+        yield model.reference(source) + (0 if source.shape is Shape.scalar else element)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
+from typing import Any
 
 from apnc_core import settings as core_settings
 from apnc_core.in_python import in_python
 from apnc_core.interface import Parameters
-from apnc_core.presets import PRESETS, preset
+from apnc_core.presets import PRESETS, preset_values
 from apnc_core.schema import MAX_LEGS, Causality, Value, Variable
 from apnc_core.settings import Setting, SettingLike
 from apnc_core.variables import TABLE, variable_named
@@ -33,8 +34,8 @@ class BuildOptions:
 
     Args:
         legs: number of legs, 2 to 64.
-        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``), for FMI 2.0; in FMI 3.0
-            the entries of a variable are an array and both are alike.
+        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``). In FMI 3.0 the first
+            makes arrays and the second a scalar per entry.
         platforms: names (FMI 2.0.5 folders) of the binaries to include; empty for sources only.
         fmi: version of the standard, 2 or 3.
         preset: set of parameters that the FMU starts with.
@@ -42,6 +43,7 @@ class BuildOptions:
         gait: relations phi_1k [rad] of the stored gait that the FMU starts with, legs - 1 of
             them (``stored`` and ``phi_stored``); none if empty.
         enumerations: ``enumeration``, or ``integer`` for importers that drop enumerations.
+        reals: whether every variable is a Real, for importers that read all of them so.
 
     Raises:
         BuildError: a value outside what is allowed.
@@ -55,6 +57,7 @@ class BuildOptions:
     settings: Mapping[str, SettingLike] = field(default_factory=dict, hash=False)
     gait: tuple[float, ...] = ()
     enumerations: str = "enumeration"
+    reals: bool = False
 
     def __post_init__(self) -> None:
         """Check the choices."""
@@ -80,8 +83,8 @@ class BuildOptions:
 
     def parameters(self) -> Parameters:
         """The parameters that the FMU starts with."""
-        values = {f.name: getattr(preset(self.preset), f.name) for f in fields(Parameters)}
-        return Parameters(**(values | dict(self.settings)))
+        values: dict[str, Any] = preset_values(self.preset) | dict(self.settings)
+        return Parameters(**values)
 
     def start(self, v: Variable) -> tuple[Value, ...]:
         """Start values of a variable, one per entry; empty for an output."""

@@ -78,10 +78,12 @@ def config_header(options: BuildOptions, guid: str) -> bytes:
         guid: of the FMU; empty for the core alone.
     """
     own = _own_defaults(options)
-    return shell_config(options.legs, options.naming, guid, own)
+    return shell_config(options.legs, options.naming, guid, own, reals=options.reals)
 
 
-def shell_config(legs: int, naming: str, guid: str, more: Iterable[str] = ()) -> bytes:
+def shell_config(
+    legs: int, naming: str, guid: str, more: Iterable[str] = (), *, reals: bool = False
+) -> bytes:
     """``apnc_config.h``: the build-time choices of any model.
 
     Args:
@@ -89,6 +91,7 @@ def shell_config(legs: int, naming: str, guid: str, more: Iterable[str] = ()) ->
         naming: ``structured`` or ``flat``.
         guid: of the FMU; empty for a core alone.
         more: lines of the model's own.
+        reals: whether every variable is shown as a Real.
     """
     lines = [
         "/* Build-time choices, written by the build. */",
@@ -97,6 +100,7 @@ def shell_config(legs: int, naming: str, guid: str, more: Iterable[str] = ()) ->
         "",
         f"#define APNC_LEGS {legs}",
         *(["#define APNC_NAMING_FLAT"] if naming == "flat" else []),
+        *(["#define APNC_REALS"] if reals else []),
         f'#define APNC_GUID "{guid}"',
         # static libraries of two builds then share no name; the core alone is named by its legs
         *([f"#define APNC_PREFIX {prefix_of(guid)}"] if guid else []),

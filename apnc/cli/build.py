@@ -31,6 +31,7 @@ def build(
     gait: Annotated[File, Option(help="Stored gait at the start.")] = None,
     controller: Annotated[Text, Option(help=f"{_CONTROLLERS} at the start.")] = None,
     enumerations: Annotated[str, Option(help="enumeration, integer.")] = "enumeration",
+    reals: Annotated[bool, Option("--reals", help="Every variable as a Real.")] = False,
     release: Annotated[File, Option(help="Folder for all files of a release instead.")] = None,
 ) -> None:
     """Build the FMU."""
@@ -67,6 +68,7 @@ def build(
             settings=settings,
             gait=read_gait(gait).settings(names)["phi_stored"] if gait else (),
             enumerations=enumerations,
+            reals=reals,
         )
         writable(output, file=True)
         path = cached_fmu(options, lambda name: shown.update(f"compiling for {name}"))

@@ -23,6 +23,7 @@ def build_plant(
     fmi: Annotated[int, Option(help="Version of the standard, 2 or 3.")] = 2,
     platform: Annotated[Texts, Option(help="As win64; host; all if omitted; repeatable.")] = None,
     enumerations: Annotated[str, Option(help="enumeration, integer.")] = "enumeration",
+    reals: Annotated[bool, Option("--reals", help="Every variable as a Real.")] = False,
 ) -> None:
     """Build the robot as an FMU, in C: it needs no Python where it runs."""
     from apnc.cli.build import platform_names
@@ -30,7 +31,7 @@ def build_plant(
     from build_fmu.writing import write_atomically
 
     with status("building") as shown:
-        wanted = PlantBuild(robot, naming, fmi, platform_names(platform), enumerations)
+        wanted = PlantBuild(robot, naming, fmi, platform_names(platform), enumerations, reals)
         output = writable(output or Path(f"{plant_model(robot)}.fmu"), file=True)
         path = plant_fmu(wanted, lambda name: shown.update(f"compiling for {name}"))
         write_atomically(output, path.read_bytes())

@@ -54,11 +54,12 @@ class PlantBuild:
 
     Args:
         robot: name of a shipped robot, or its file; its numbers travel in the FMU.
-        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``), for FMI 2.0; in FMI 3.0
-            the entries of a variable are an array and both are alike.
+        naming: ``structured`` (``leg[1].grf``) or ``flat`` (``leg1_grf``). In FMI 3.0 the first
+            makes arrays and the second a scalar per entry.
         fmi: version of the standard, 2 or 3.
         platforms: names of the binaries to include; empty for sources only.
         enumerations: ``enumeration``, or ``integer`` for importers that drop enumerations.
+        reals: whether every variable is a Real, for importers that read all of them so.
 
     Raises:
         ValueError: a choice outside what is allowed, or a robot that cannot be read or that an FMU
@@ -70,6 +71,7 @@ class PlantBuild:
     fmi: int = 2
     platforms: tuple[str, ...] = tuple(PLATFORMS)
     enumerations: str = "enumeration"
+    reals: bool = False
 
     def __post_init__(self) -> None:
         """Check the choices."""
@@ -97,6 +99,7 @@ class PlantBuild:
             naming=self.naming,
             fmi=self.fmi,
             enumerations_as=self.enumerations,
+            reals=self.reals,
         )
 
 
@@ -149,7 +152,7 @@ def _configured(build: PlantBuild, guid: str) -> dict[str, bytes]:
     lines = ["/* Build-time choices, written by the build. */", "#define PLANT_ONE_ROBOT"]
     lines += [f"#define PLANT_PREFIX {sources.prefix_of(guid)}"] if guid else []
     return {
-        "apnc_config.h": sources.shell_config(legs, build.naming, guid),
+        "apnc_config.h": sources.shell_config(legs, build.naming, guid, reals=build.reals),
         "plant_config.h": ("\n".join(lines) + "\n").encode(),
     }
 

@@ -15,6 +15,8 @@ typedef struct {
     int64_t next_tick;  /* number of the next tick, due at start_time + next_tick Ts */
     int32_t limited_MI; /* the value of MI was last found unusable or out of its range */
     int32_t limited_turn;
+    int32_t held; /* a step was longer than a tick, and it was said */
+    int32_t unused;
 } controller_state;
 
 const int apnc_variable_count = APNC_VARIABLES;
@@ -97,6 +99,20 @@ static apnc_status tick(apnc_instance *instance) {
     return status;
 }
 
+/* Importers choose their own step, some without a word: the first step longer than a tick is
+ * reported. */
+static void note_long_step(apnc_instance *instance, double t, double h) {
+    const apnc_data *data = instance->values;
+    controller_state *state = instance->state;
+    const double Ts = data->parameters.Ts;
+    if (state->held || h <= (1.0 + TICK_TOLERANCE) * Ts) return;
+    state->held = 1;
+    apnc_report(instance, APNC_WARNING, APNC_LOG_WARNING,
+                "the step of %g s from %g s is longer than a tick, %g s: inputs are held, and "
+                "loads arrive late",
+                h, t, Ts);
+}
+
 /* Run every tick with t <= start_time + k Ts < t + h. */
 apnc_status apnc_model_step(apnc_instance *instance, double t, double h) {
     const apnc_data *data = instance->values;
@@ -110,6 +126,7 @@ apnc_status apnc_model_step(apnc_instance *instance, double t, double h) {
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                            "step by %g s has more than %g ticks of %g s", h,
                            APNC_MAX_TICKS_PER_STEP, Ts);
+    note_long_step(instance, t, h);
     while (run->start_time + (double)state->next_tick * Ts < due_before) {
         run->time = run->start_time + (double)state->next_tick * Ts;
         state->next_tick++;

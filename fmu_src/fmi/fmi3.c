@@ -1,6 +1,7 @@
 /* FMI 3.0 co-simulation interface: life cycle, arrays and types of the standard.
  *
- * A variable with several entries is an array; its value reference is that of its first entry.
+ * A variable with several entries is an array, and its value reference is that of its first entry.
+ * In a build with flat names every entry is a scalar of its own instead.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -126,18 +127,28 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
     return fmi3OK;
 }
 
+/* Number of values at a value reference; 0 if no variable has it. */
+static size_t values_at(fmi3ValueReference vr) {
+    const uint32_t number = vr / APNC_VR_STRIDE, entry = vr % APNC_VR_STRIDE;
+    if (number >= (uint32_t)apnc_variable_count) return 0;
+#ifdef APNC_NAMING_FLAT
+    return entry < (uint32_t)apnc_variables[number].count;
+#else
+    return entry ? 0 : (size_t)apnc_variables[number].count;
+#endif
+}
+
 /* Number of values of a variable of that type; 0 with a message if there is none. */
 static size_t entries(fmu *f, const char *function, fmi3ValueReference vr, apnc_type type) {
-    const uint32_t number = vr / APNC_VR_STRIDE;
+    const size_t count = values_at(vr);
     if (vr == APNC_VR_TIME && type == APNC_REAL) return 1;
-    if (vr % APNC_VR_STRIDE || number >= (uint32_t)apnc_variable_count ||
-        apnc_variables[number].type != type) {
+    if (!count || !apnc_shown_as(&apnc_variables[vr / APNC_VR_STRIDE], type)) {
         apnc_report(&f->base, APNC_ERROR, APNC_LOG_ERROR,
                     "%s: no variable of this type has value reference %lu", function,
                     (unsigned long)vr);
         return 0;
     }
-    return (size_t)apnc_variables[number].count;
+    return count;
 }
 
 static fmi3Status check_access(fmu *f, int phases, const char *function,

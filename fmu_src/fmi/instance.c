@@ -118,6 +118,15 @@ static const char *type_name(apnc_type type) {
     return names[type];
 }
 
+int apnc_shown_as(const apnc_variable *variable, apnc_type type) {
+#ifdef APNC_REALS
+    (void)variable;
+    return type == APNC_REAL;
+#else
+    return type == variable->type;
+#endif
+}
+
 static size_t size_of(const apnc_variable *variable) {
     return variable->type == APNC_REAL ? sizeof(double) : sizeof(int32_t);
 }
@@ -136,10 +145,12 @@ static const apnc_variable *find(apnc_instance *instance, uint32_t value_referen
     const apnc_variable *variable = &apnc_variables[number];
     *at = (char *)instance->values + variable->offset + entry * size_of(variable);
     *element = (int)entry;
-    if (variable->type == wanted || (variable->type == APNC_ENUMERATION && wanted == APNC_INTEGER))
+    if (apnc_shown_as(variable, wanted) ||
+        (apnc_shown_as(variable, APNC_ENUMERATION) && wanted == APNC_INTEGER))
         return variable;
     apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "%s is of type %s, not %s",
-                apnc_scalar_name(variable, *element).text, type_name(variable->type),
+                apnc_scalar_name(variable, *element).text,
+                type_name(apnc_shown_as(variable, APNC_REAL) ? APNC_REAL : variable->type),
                 type_name(wanted));
     return NULL;
 }
@@ -149,6 +160,18 @@ static apnc_status refresh(apnc_instance *instance) {
     const apnc_status status = apnc_model_refresh(instance);
     if (status == APNC_OK) instance->run->outdated = 0;
     return status;
+}
+
+/* Number stored as a type: a Real is a double, every other type an int32_t. */
+static double number_at(const void *at, apnc_type type) {
+    double number;
+    int32_t integer;
+    if (type == APNC_REAL) {
+        memcpy(&number, at, sizeof number);
+        return number;
+    }
+    memcpy(&integer, at, sizeof integer);
+    return integer;
 }
 
 apnc_status apnc_get(apnc_instance *instance, uint32_t value_reference, apnc_type wanted,
@@ -164,7 +187,12 @@ apnc_status apnc_get(apnc_instance *instance, uint32_t value_reference, apnc_typ
                                apnc_scalar_name(variable, element).text);
         if (refresh(instance) != APNC_OK) return APNC_ERROR;
     }
-    memcpy(value, at, size_of(variable));
+    if (wanted == APNC_REAL) {
+        const double number = number_at(at, variable->type);
+        memcpy(value, &number, sizeof number);
+    } else {
+        memcpy(value, at, sizeof(int32_t));
+    }
     return APNC_OK;
 }
 
@@ -180,22 +208,27 @@ static apnc_status report_range(apnc_instance *instance, const apnc_variable *va
         apnc_scalar_name(variable, element).text, value, variable->min, variable->max);
 }
 
-static double number_at(const apnc_variable *variable, const void *at) {
-    double number;
-    int32_t integer;
-    if (variable->type == APNC_REAL) {
-        memcpy(&number, at, sizeof number);
-        return number;
-    }
-    memcpy(&integer, at, sizeof integer);
-    return integer;
-}
-
 /* Whether a parameter may have a value; logs if not. */
 static apnc_status may_be(apnc_instance *instance, const apnc_variable *variable, int element,
                           double value) {
     if (!in_range(variable, value)) return report_range(instance, variable, element, value);
     return apnc_model_accepts(instance, variable, value);
+}
+
+/* Store a number as the type of a variable; an error if it cannot be stored so. */
+static apnc_status store(apnc_instance *instance, const apnc_variable *variable, int element,
+                         double number, void *at) {
+    int32_t integer;
+    if (variable->type == APNC_REAL) {
+        memcpy(at, &number, sizeof number);
+        return APNC_OK;
+    }
+    if (!(number >= INT32_MIN && number <= INT32_MAX) || number != floor(number))
+        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "%s = %g is not a whole number",
+                           apnc_scalar_name(variable, element).text, number);
+    integer = variable->type == APNC_BOOLEAN ? number != 0 : (int32_t)number;
+    memcpy(at, &integer, sizeof integer);
+    return APNC_OK;
 }
 
 apnc_status apnc_set(apnc_instance *instance, uint32_t value_reference, apnc_type wanted,
@@ -204,6 +237,7 @@ apnc_status apnc_set(apnc_instance *instance, uint32_t value_reference, apnc_typ
     int element;
     const int stepping = instance->run->phase == APNC_STEPPING;
     const apnc_variable *variable = find(instance, value_reference, wanted, &at, &element);
+    const double number = number_at(value, wanted);
     if (!variable) return APNC_ERROR;
     if (variable->role == APNC_OUTPUT || variable->role == APNC_LOCAL)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR, "%s is an output: it can't be set",
@@ -213,25 +247,18 @@ apnc_status apnc_set(apnc_instance *instance, uint32_t value_reference, apnc_typ
                            "%s is fixed: it can only be set before the first step",
                            apnc_scalar_name(variable, element).text);
     if (stepping && variable->role == APNC_TUNABLE) {
-        if (may_be(instance, variable, element, number_at(variable, value)) != APNC_OK)
-            return APNC_ERROR;
+        if (may_be(instance, variable, element, number) != APNC_OK) return APNC_ERROR;
         instance->run->tuned = 1;
     }
-    if (variable->type == APNC_REAL) {
-        memcpy(at, value, sizeof(double));
-    } else {
-        int32_t integer = (int32_t)number_at(variable, value);
-        if (variable->type == APNC_BOOLEAN) integer = integer != 0;
-        memcpy(at, &integer, sizeof integer);
-    }
+    if (store(instance, variable, element, number, at) != APNC_OK) return APNC_ERROR;
     if (!stepping) instance->run->outdated = 1;
     return APNC_OK;
 }
 
 /* Value of an entry of a variable. */
 static double value_of(const void *values, const apnc_variable *variable, int element) {
-    return number_at(variable,
-                     (const char *)values + variable->offset + (size_t)element * size_of(variable));
+    const char *at = (const char *)values + variable->offset;
+    return number_at(at + (size_t)element * size_of(variable), variable->type);
 }
 
 static int is_parameter(const apnc_variable *variable) {

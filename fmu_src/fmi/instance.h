@@ -23,6 +23,7 @@
 #define apnc_clear               APNC_NAME(clear)
 #define apnc_set_times           APNC_NAME(set_times)
 #define apnc_scalar_name         APNC_NAME(scalar_name)
+#define apnc_shown_as            APNC_NAME(shown_as)
 #define apnc_get                 APNC_NAME(get)
 #define apnc_set                 APNC_NAME(set)
 #define apnc_parameters_in_range APNC_NAME(parameters_in_range)
@@ -130,6 +131,10 @@ typedef struct {
 } apnc_name;
 
 apnc_name apnc_scalar_name(const apnc_variable *variable, int element);
+
+/* Whether the model description shows a variable as this type. In a build with APNC_REALS every
+ * variable is a Real, for tools that read all of them so. */
+int apnc_shown_as(const apnc_variable *variable, apnc_type type);
 
 /* Read or write one value; wanted and its C type must be those of the variable. Before
  * initialization only variables with a start value can be read. */

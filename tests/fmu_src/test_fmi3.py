@@ -24,16 +24,16 @@ from apnc.loop.fmu_controller import FmuController
 from apnc_core.schema import VR_TIME, Causality, Type
 from apnc_core.variable_numbers import VARIABLE_NUMBERS
 from apnc_core.variables import TABLE, scalars, variable_named
-from build_fmu.build import fmu_bytes, host_fmu
-from build_fmu.options import BuildOptions
+from build_fmu.build import cached_fmu, fmu_bytes, host_fmu
+from build_fmu.options import BuildOptions, host_platform
 
 TS = 1 / 60
 REFERENCE = {name: 100 * number for name, number in VARIABLE_NUMBERS.items()}
 
 
 @contextmanager
-def slave3(legs: int, token: str | None = None) -> Iterator[Any]:
-    path = host_fmu(legs, fmi=3)
+def slave3(legs: int, token: str | None = None, path: Path | None = None) -> Iterator[Any]:
+    path = path or host_fmu(legs, fmi=3)
     description = fmpy.read_model_description(str(path))
     folder = tempfile.mkdtemp(prefix="apnc-test-")
     fmpy.extract(str(path), unzipdir=folder)
@@ -62,9 +62,10 @@ def start(fmu: Any) -> None:
     fmu.exitInitializationMode()
 
 
+@pytest.mark.parametrize("naming", ["structured", "flat"])
 @pytest.mark.parametrize("legs", [4, 6, 8])
-def test_valid_by_fmpy_and_by_the_schema(legs: int, tmp_path: Path) -> None:
-    fmu = fmu_bytes(BuildOptions(legs=legs, platforms=(), fmi=3))
+def test_valid_by_fmpy_and_by_the_schema(legs: int, naming: str, tmp_path: Path) -> None:
+    fmu = fmu_bytes(BuildOptions(legs=legs, naming=naming, platforms=(), fmi=3))
     path = tmp_path / "Apnc.fmu"
     path.write_bytes(fmu)
     assert validate_fmu(str(path)) == []
@@ -208,3 +209,57 @@ def test_wrong_token_is_refused() -> None:
 def test_value_references_are_those_of_fmi2() -> None:
     of_first_entries = {s.variable.name: s.value_reference for s in scalars() if s.element == 0}
     assert of_first_entries == REFERENCE
+
+
+@pytest.fixture(scope="module")
+def flat() -> Path:
+    return cached_fmu(BuildOptions(naming="flat", fmi=3, platforms=(host_platform(),)))
+
+
+def test_flat_names_make_every_entry_a_scalar(flat: Path) -> None:
+    variables = fmpy.read_model_description(str(flat)).modelVariables
+    found = {v.name: v.valueReference for v in variables if v.name != "time"}
+    assert found == {s.name: s.value_reference for s in scalars(4, "flat")}
+    assert all(v.dimensions == [] for v in variables)
+
+
+def test_scalars_have_the_values_of_the_arrays(flat: Path) -> None:
+    legs = [REFERENCE["grf"] + k for k in range(4)]
+    shown = [v for v in TABLE if v.causality is Causality.output and v.type is Type.real]
+    with slave3(4) as arrays, slave3(4, path=flat) as single:
+        for fmu in (arrays, single):
+            fmu.enterInitializationMode(startTime=0.0)
+        arrays.setFloat64([REFERENCE["phi_stored"]], [3.0, 3.2, 0.1])
+        single.setFloat64([REFERENCE["phi_stored"] + k for k in (2, 0, 1)], [0.1, 3.0, 3.2])
+        for fmu in (arrays, single):
+            fmu.setBoolean([REFERENCE["stored"]], [True])
+            fmu.exitInitializationMode()
+        for n in range(100):
+            loads = [3.0 + n % 7, 9.0, 5.0, 8.0 - n % 5]
+            arrays.setFloat64([REFERENCE["grf"]], loads)
+            single.setFloat64(legs, loads)
+            for fmu in (arrays, single):
+                fmu.doStep(n * TS, TS)
+            for v in shown:
+                together = arrays.getFloat64([REFERENCE[v.name]], nValues=v.count(4))
+                one_by_one = [
+                    value
+                    for k in range(v.count(4))
+                    for value in single.getFloat64([REFERENCE[v.name] + k])
+                ]
+                assert together == one_by_one
+        assert single.getBoolean([REFERENCE["fault"] + 3]) == [False]
+
+
+def test_references_beyond_the_legs_are_refused_with_flat_names(flat: Path) -> None:
+    with slave3(4, path=flat) as fmu:
+        start(fmu)
+        for reference in (
+            REFERENCE["grf"] + 4,
+            REFERENCE["phi"] + 3,
+            REFERENCE["MI"] + 1,
+            99_00_00,
+        ):
+            with pytest.raises(FMICallException):
+                fmu.getFloat64([reference])
+            assert str(reference) in fmu.messages[-1]

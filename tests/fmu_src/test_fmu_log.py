@@ -7,7 +7,7 @@ import math
 
 import pytest
 from lxml import etree
-from raw_fmu import ERROR, OK, Instance, Library
+from raw_fmu import ERROR, OK, TS, Instance, Library
 from raw_walk import LOADS, walk
 
 
@@ -77,4 +77,35 @@ def test_no_logger_and_no_callbacks_at_all(
     assert fmu.step(0.0) == ERROR
     fmu.start()
     assert walk(fmu) == expected
+    fmu.free()
+
+
+def long_steps(fmu: Instance) -> list[str]:
+    return [text for _, kind, text in fmu.log if kind == "logStatusWarning"]
+
+
+def test_a_step_longer_than_a_tick_is_reported_once(library: Library) -> None:
+    fmu = Instance(library)
+    fmu.start()
+    assert fmu.step(0.0) == OK
+    assert fmu.step(TS, 1.00001 * TS) == OK  # rounded, as whole nanoseconds are
+    assert long_steps(fmu) == []
+    assert fmu.step(2.00001 * TS, 1 / 15) == OK
+    (said,) = long_steps(fmu)
+    assert "0.0666667 s from 0.0333" in said and "longer than a tick, 0.0166667 s" in said
+    assert fmu.step(6.00001 * TS, 1 / 15) == OK
+    assert len(long_steps(fmu)) == 1
+    # a new run says it anew
+    assert fmu("fmi2Reset") == OK
+    fmu.start()
+    assert fmu.step(0.0, 1 / 15) == OK
+    assert len(long_steps(fmu)) == 2
+    fmu.free()
+
+
+def test_a_long_step_that_is_refused_is_no_long_step(library: Library) -> None:
+    fmu = Instance(library)
+    fmu.start()
+    assert fmu.step(0.0, 1e9) == ERROR
+    assert long_steps(fmu) == []
     fmu.free()

@@ -137,9 +137,9 @@ def test_a_blob_made_by_hand_cannot_bring_impossible_parameters(
 
 
 NUMBERS = {
-    "next_tick": ("<q", -16, TICKS),
-    "ticks": ("<q", -24, TICKS),
-    "oldest": ("<i", -152, TICKS % Parameters().N),
+    "next_tick": ("<q", -24, TICKS),
+    "ticks": ("<q", -32, TICKS),
+    "oldest": ("<i", -160, TICKS % Parameters().N),
 }
 """Whole numbers of the controller's state: format, place from the end, value after ``TICKS``."""
 
