@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 from apnc_core.interface import Parameters
 from apnc_core.schema import Causality
+from apnc_core.settings import Setting
 from apnc_core.variables import variables_of
 
 PRESETS = ("lilibot", "paper")
@@ -25,3 +28,9 @@ def preset(name: str) -> Parameters:
         return Parameters()
     printed = {v.name: v.paper for v in variables_of(Causality.parameter) if v.paper is not None}
     return Parameters(**printed)  # type: ignore[arg-type]  # the table gives each its type
+
+
+def preset_values(name: str) -> dict[str, Setting]:
+    """The parameters of one preset by name, see :func:`preset`."""
+    chosen = preset(name)
+    return {each.name: getattr(chosen, each.name) for each in fields(chosen)}

@@ -21,11 +21,10 @@ from apnc.loop.engines import OWN_ENGINE, check_engine
 from apnc.loop.schedule import Schedule, checked_schedule, schedule_text, steps_of
 from apnc_core.enumerations import Method
 from apnc_core.frozen import Frozen
-from apnc_core.presets import PRESETS, preset
-from apnc_core.schema import Causality
+from apnc_core.presets import PRESETS, preset_values
 from apnc_core.settings import Setting, SettingLike
 from apnc_core.settings import checked as checked_setting
-from apnc_core.variables import variable_named, variables_of
+from apnc_core.variables import variable_named
 from apnc_plant.chance import LARGEST_SEED
 from apnc_plant.conditions import CONDITIONS, Conditions, named_conditions
 from apnc_plant.files import Number, checked, checked_table, limits
@@ -247,17 +246,16 @@ class Experiment:
         defaults. ``Ts`` and ``method`` are set by the fields ``rate`` and ``controller``, and a
         preset sets nothing that belongs to the run.
         """
-        known = [v.name for v in variables_of(Causality.parameter)]
         own, of_fmu = {}, dict(self.fmu_starts)
         if self.preset == OWN_PRESET:
-            chosen, own = preset("lilibot"), dict(self.description.controller)
+            chosen, own = "lilibot", dict(self.description.controller)
         elif self.preset in PRESETS:
-            chosen = preset(self.preset)
+            chosen = self.preset
             of_fmu = {name: value for name, value in of_fmu.items() if name in OF_THE_RUN}
         else:
             allowed = ", ".join((OWN_PRESET, *PRESETS))
             raise ValueError(f"preset '{self.preset}' is not one of {allowed}")
-        values: dict[str, SettingLike] = {name: getattr(chosen, name) for name in known}
+        values: dict[str, SettingLike] = dict(preset_values(chosen))
         values |= {"robot_weight": self.description.weight, **own, **of_fmu}
         values["Ts"] = self.Ts
         if self.controller is not None:

@@ -33,7 +33,7 @@ class Node:
         experiment = Experiment(robot=rospy.get_param("~robot", "lilibot"))
         self.legs = tuple(leg.name for leg in experiment.description.legs)
         self.Ts, self.gait_file = experiment.Ts, rospy.get_param("~gait", "")
-        parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
+        parameters = experiment.starts()
         self.stored = bool(self.gait_file) and Path(self.gait_file).is_file()
         if self.stored:
             parameters |= read_gait(Path(self.gait_file)).settings(self.legs)

@@ -146,9 +146,8 @@ def test_the_same_build_is_the_same_file(
 def test_a_plain_loop_is_the_direct_loop_bit_for_bit(path: Path, fmu4: Path) -> None:
     experiment = Experiment(mi=0.15, seed=3, duration=5.0, engine="compiled")
     record = simulate(experiment)
-    parameters = {k: v for k, v in experiment.parameters().items() if v != ()}
     places, loads = [], []
-    with plant(path) as robot, FmuController(fmu4, parameters) as controller:
+    with plant(path) as robot, FmuController(fmu4, experiment.starts()) as controller:
         robot.start(seed=3)
         for n in range(len(record)):
             places.append(robot.get(POSITION))
