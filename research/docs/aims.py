@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from research.docs import DOCS
+from research.docs.manifest import note, robots_in
 from research.docs.put_table import put
 
 PAGE: Final = DOCS / "formation.md"
@@ -39,6 +40,7 @@ def main(claims: Path) -> None:
     except ValueError as error:
         sys.exit(f"{claims}: {error}")
     PAGE.write_text(page, encoding="utf-8")
+    note(robots_in(claims.with_name("trials.csv")), "aims")
 
 
 if __name__ == "__main__":

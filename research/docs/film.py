@@ -25,6 +25,10 @@ from apnc.loop.simulate import simulate
 from apnc.report import theme
 from apnc.report.skeleton import clearance, leg_chains, trunk_corners
 from apnc_core.types import Array
+from research.docs import DOCS
+from research.docs.manifest import USUAL, note
+
+PICTURES: Final = DOCS / "pictures"
 
 Box = tuple[float, float, float, float]
 """Left, top, width and height [px]."""
@@ -338,8 +342,11 @@ def main(folder: Path, mis: Sequence[float]) -> None:
         if not len(part) or min(map(len, (view := View(part)).starts)) < 4:
             sys.exit(f"MI {mi:g}: {record.end} at {record.ended_at:g} s without three strides")
         feet = walk_features(part)
-        film(view, feet, folder / f"film-mi-{mi:g}.gif")
-        sheet(view, feet, folder / f"feet-mi-{mi:g}.png")
+        files = [folder / f"film-mi-{mi:g}.gif", folder / f"feet-mi-{mi:g}.png"]
+        film(view, feet, files[0])
+        sheet(view, feet, files[1])
+        if folder.resolve() == PICTURES:
+            note({USUAL}, *files)
 
 
 if __name__ == "__main__":

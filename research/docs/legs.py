@@ -27,6 +27,7 @@ from apnc.studies.table import markdown
 from apnc_plant.plant import Plant
 from apnc_plant.robot import load_robot
 from research.docs import DOCS
+from research.docs.manifest import note
 from research.docs.pictures import pictures
 from research.docs.put_table import put
 from research.modes.gaits import CANDIDATES, gait_of
@@ -90,6 +91,7 @@ def measure(processes: int) -> None:
     with ProcessPoolExecutor(processes) as pool:
         write(RUNS, pool.map(walked, *zip(*runs, strict=True)))
         write(MAPS, pool.map(mapped, *zip(*maps, strict=True)))
+    note(ROBOTS, RUNS, MAPS)
 
 
 def write(path: Path, rows: Iterable[Row]) -> None:

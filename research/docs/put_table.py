@@ -12,6 +12,8 @@ import re
 import sys
 from pathlib import Path
 
+from research.docs.manifest import note, robots_in
+
 TABLE = r"(?:\|.*\n)+"
 
 
@@ -38,6 +40,7 @@ def main(page: Path, table: Path) -> None:
     except ValueError as error:
         sys.exit(f"{page}: {error}")
     page.write_text(changed, encoding="utf-8")
+    note(robots_in(table.with_name("trials.csv")), table.stem)
 
 
 if __name__ == "__main__":

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from research.docs import DOCS
+from research.docs.manifest import note, robots_in
 from research.docs.put_table import put
 
 PAGE: Final = DOCS / "reproduction.md"
@@ -138,6 +139,8 @@ def main(paths: Sequence[Path]) -> None:
         sys.exit(str(error))
     PAGE.write_text(page, encoding="utf-8")
     DETAILS.write_text(details(found), encoding="utf-8")
+    robots = {robot for path in paths for robot in robots_in(path.with_name("trials.csv"))}
+    note(robots, "verdict-counts", "claims", DETAILS)
 
 
 if __name__ == "__main__":

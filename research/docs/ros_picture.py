@@ -16,6 +16,7 @@ from plotly.subplots import make_subplots
 
 from apnc.report.theme import GREY, axis, layout, leg_colours
 from research.docs import DOCS, ROOT
+from research.docs.manifest import USUAL, note
 from research.docs.pictures import pictures
 
 OBSERVER: Final = ROOT / "tests" / "support" / "ros_observer.py"
@@ -47,7 +48,9 @@ def main() -> None:
         plot.update_yaxes(row=row, col=1, **axis(title))
     plot.update_xaxes(row=3, col=1, **axis("time of the controller [s]"))
     page = plotly.io.to_html(plot, include_plotlyjs=True, div_id="ros-walk")
-    (DOCS / "pictures" / "ros-walk.svg").write_text(pictures(page)["ros-walk"], encoding="utf-8")
+    picture = DOCS / "pictures" / "ros-walk.svg"
+    picture.write_text(pictures(page)["ros-walk"], encoding="utf-8")
+    note({USUAL}, picture)
 
 
 if __name__ == "__main__":

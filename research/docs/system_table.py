@@ -29,6 +29,7 @@ from apnc.report import theme
 from apnc.system.build import build_system
 from apnc.system.structure import Structure, structure_of
 from research.docs import DOCS, ROOT
+from research.docs.manifest import USUAL, note
 from research.docs.pictures import pictures
 
 SUPPORT: Final = ROOT / "tests" / "support"
@@ -273,6 +274,7 @@ def main() -> None:
                 writer.writerow(row)
                 file.flush()
                 print(row)
+        note({USUAL}, DATA)
     with DATA.open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     write_page(rows)

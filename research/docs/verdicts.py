@@ -23,6 +23,7 @@ from apnc.studies.runner import run_trials
 from apnc.studies.study import Trial, load
 from apnc.studies.table import markdown
 from research.docs import DOCS
+from research.docs.manifest import USUAL, note
 from research.docs.put_table import put
 
 FILE: Final = DOCS / "data" / "verdicts.csv"
@@ -81,6 +82,7 @@ def main(words: list[str]) -> None:
             writer = csv.DictWriter(file, list(lines[0]), lineterminator="\n")
             writer.writeheader()
             writer.writerows(lines)
+        note({USUAL}, FILE)
     with FILE.open(encoding="utf-8") as file:
         text = put(PAGE.read_text("utf-8"), "verdicts", table(list(csv.DictReader(file))))
     PAGE.write_text(text, encoding="utf-8")
