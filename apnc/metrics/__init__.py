@@ -1,12 +1,19 @@
-"""Gait metrics: pure functions on arrays, so that every study and report means the same by a word.
+"""Gait metrics: pure functions on arrays, the same for every study and report.
 
-Arguments mean the same everywhere, for T samples and n legs in the FMU's order:
-``time`` [s] (T,); ``sample_time`` between two of them [s]; ``o1``, ``o2``: outputs of the neurons
-N1, N2 of every CPG (T, n); ``target``: relative phases phi_12 .. phi_1n of a gait [rad] (n - 1,);
-``touch``: index of the touch moment; ``standing``: stance of every foot (T, n); ``starts``: when
-the cycles of each oscillator begin [samples], n arrays; ``position``: trunk in the world frame [m]
-(T, 3); ``roll``, ``pitch``, ``yaw`` of the trunk [rad] (T,); ``speed`` along the path [m/s].
-An undefined value (no stride taken, robot not moving) is ``None``, never a made-up number.
+Arguments of the same name mean the same in every function, for T samples and n legs in the FMU's
+order:
+
+- ``time``: sample times [s], shape (T,); ``sample_time``: time between two samples [s].
+- ``o1``, ``o2``: outputs of the neurons N1 and N2 of every CPG, shape (T, n).
+- ``target``: relative phases phi_12 .. phi_1n of a gait [rad], shape (n - 1,).
+- ``touch``: index of the touch moment, None if there is none.
+- ``standing``: which feet stand, shape (T, n).
+- ``starts``: when the cycles of each oscillator begin [samples], an array per leg.
+- ``position``: of the trunk in the world frame [m], shape (T, 3).
+- ``roll``, ``pitch``, ``yaw``: of the trunk [rad], shape (T,).
+- ``speed``: of the trunk along its path [m/s].
+
+An undefined value is ``None``, e.g. the stride length of a robot that does not move.
 """
 
 from apnc.metrics.convergence import STRICT_TOLERANCE as STRICT_TOLERANCE

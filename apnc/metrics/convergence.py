@@ -1,4 +1,4 @@
-"""When the gait formed: at the authors' first crossing, or at the start of lasting agreement."""
+"""When the gait formed, by the authors' criterion and by a strict one."""
 
 from __future__ import annotations
 
@@ -11,15 +11,21 @@ from apnc.metrics.phases import phase_difference_authors, relative_phases, wrap
 from apnc.metrics.smoothing import smooth
 from apnc_core.types import Array
 
-AUTHORS_THRESHOLD: Final = 2.8  # distance to the gait [rad], from the authors' evaluation code
-STRICT_TOLERANCE: Final = 0.6  # deviation of a phase [rad]: a tenth of a cycle
-STRICT_HOLD: Final = 1.0  # lasted at the end of the run [s]: about a stride at the lowest MI
+AUTHORS_THRESHOLD: Final = 2.8
+"""Distance to the gait below which it has formed, from the authors' evaluation code [rad]."""
+
+STRICT_TOLERANCE: Final = 0.6
+"""Largest deviation of a phase from the gait [rad], about a tenth of a cycle."""
+
+STRICT_HOLD: Final = 1.0
+"""Least time for which the gait must have held at the end [s], about a stride at the lowest MI."""
 
 
 def touch_moment(vertical_force: Array, weight: float) -> int | None:
-    """Index of the first sample with at least two feet above four fifths of an even share.
+    """Index of the first sample at which at least two feet are loaded; None if there is none.
 
-    With four legs that is a fifth of the weight. None if there is none.
+    A foot is loaded above four fifths of an even share of the weight. With four legs that is a
+    fifth of the weight.
 
     Args:
         vertical_force: of the ground on every foot [N], shape (T, n).
@@ -44,22 +50,23 @@ def phase_error(o1: Array, o2: Array, target: ArrayLike) -> Array:
 def convergence_time(
     time: Array, o1: Array, o2: Array, touch: int | None, target: ArrayLike
 ) -> float | None:
-    """Time from the touch moment until every phase is at the gait for good [s], strict criterion.
+    """Time from the touch moment until every phase stays within 0.6 rad of the gait [s].
 
-    None if the gait did not form, or has not lasted for a second when the run ends. Pitfall: a late
-    excursion beyond 0.6 rad moves the time to after it.
+    This is the strict criterion. None if the gait did not form, or has held for less than a second
+    when the run ends. Pitfall: if a phase leaves the tolerance late in the run, the time is that of
+    its return.
     """
     return None if touch is None else settling_time(time, phase_error(o1, o2, target), touch)
 
 
 def settling_time(time: Array, error: Array, touch: int | None) -> float | None:
-    """Time from the touch moment until an error (T,) stays within 0.6 rad [s].
+    """Time from the touch moment until the phase error stays within 0.6 rad [s].
 
-    The same as ``convergence_time``, for who has the ``phase_error`` already.
+    The same as :func:`convergence_time`, of the result of :func:`phase_error`, shape (T,).
     """
     if touch is None:
         return None
-    # Written so that a NaN (undefined phase) counts as outside.
+    # written this way, NaN (an undefined phase) is outside
     outside = np.flatnonzero(~(error <= STRICT_TOLERANCE))
     start = max(int(outside[-1]) + 1 if len(outside) else 0, touch)
     if start >= len(time) or time[-1] - time[start] < STRICT_HOLD:
@@ -70,11 +77,12 @@ def settling_time(time: Array, error: Array, touch: int | None) -> float | None:
 def convergence_time_authors(
     time: Array, o1: Array, o2: Array, touch: int | None, target: ArrayLike
 ) -> float | None:
-    """Time from the touch moment to the first sight of the gait [s], the authors' criterion.
+    """Time from the touch moment until the gait is near for the first time [s].
 
-    The distance of the unsigned phases to (pi, pi, 0), smoothed, falls below 2.8 rad. In phase it
-    is 4.44 rad, with six and eight legs 5.44 and 6.28. Source: the authors' evaluation code.
-    Pitfall: 2.8 rad is loose, and a first crossing need not last; compare ``convergence_time``.
+    This is the authors' criterion: the smoothed distance of the unsigned phases to the gait falls
+    below 2.8 rad. The distance of legs that are all in phase is 4.44 rad with four legs, 5.44 with
+    six and 6.28 with eight. Source: the authors' evaluation code. Pitfall: 2.8 rad is loose, and
+    the gait may be lost again, see :func:`convergence_time`.
     """
     if touch is None:
         return None

@@ -39,30 +39,39 @@ GAITS: Final = {
 }
 """Number of legs -> name -> phi_12 .. phi_1n [rad], positive where leg k is ahead of leg 1.
 
-Legs in the FMU's order: right from front to hind, then left (RF, RH, LF, LH). The first gait of
-each is the target: for four legs the trot of the paper. Sources: Alexander 1984 for four (walk:
-hind foot a quarter of a cycle ahead of the front foot of its side), Wilson 1966 for six (waves from
-hind to front), Ferrell 1994 for the ripple (a leg of each side at a time, the sides half a cycle
-apart), Spagna and Peattie 2012 for eight. In a wave of pairs left and right step together, and the
-pairs one after the other: from hind to front in a direct wave, as millipedes walk, from front to
-hind in a retrograde one (Kuroda et al. 2014 name the directions).
+Legs are in the FMU's order: right from front to hind, then left (RF, RH, LF, LH). The first gait of
+each number of legs is the expected one. For four legs it is the trot of the paper.
+
+- Four legs: Alexander 1984. In the walk a hind foot is a quarter of a cycle ahead of the front foot
+  of its side.
+- Six legs: Wilson 1966, with waves from hind to front. Ripple: Ferrell 1994; one leg of each side
+  swings at a time, and the sides are half a cycle apart.
+- Eight legs: Spagna and Peattie 2012.
+- In a wave of pairs left and right swing together, and the pairs follow one another: from hind to
+  front in a direct wave, as in millipedes, and from front to hind in a retrograde wave. Kuroda et
+  al. 2014 name the directions.
 """
 
 
 def default_target(n_legs: int) -> tuple[float, ...] | None:
-    """Relative phases [rad] of the gait expected of ``n_legs`` legs, None if ``GAITS`` has none."""
+    """Relative phases [rad] of the gait expected of ``n_legs`` legs; None if none is known."""
     return next(iter(GAITS.get(n_legs, {}).values()), None)
 
 
 def gait_name(n_legs: int) -> str:
-    """Name of the gait expected of ``n_legs`` legs, "gait" if ``GAITS`` has none."""
+    """Name of the gait expected of ``n_legs`` legs; "gait" if none is known."""
     return next(iter(GAITS.get(n_legs, {})), "gait")
 
 
 def nearest_gait(phases: ArrayLike, tolerance: float) -> str | None:
-    """Name of the gait from which no relative phase (n - 1,) is farther than ``tolerance`` [rad].
+    """Name of the gait with the smallest largest deviation from the relative phases.
 
-    The one with the smallest largest deviation; None if there is none or a phase is undefined.
+    Args:
+        phases: phi_12 .. phi_1n [rad], shape (n - 1,).
+        tolerance: largest deviation that is allowed [rad].
+
+    Returns:
+        None if no gait is within the tolerance or a phase is undefined.
     """
     measured = np.asarray(phases, dtype=np.float64)
     known = GAITS.get(len(measured) + 1, {})

@@ -1,4 +1,4 @@
-"""How the trunk moved: speed along the path and ahead, turn, balance and cost of transport."""
+"""Motion of the trunk: speed, turn, balance and cost of transport."""
 
 from __future__ import annotations
 
@@ -11,15 +11,16 @@ from apnc_core.types import Array
 from apnc_plant.robot.model import GRAVITY
 
 MIN_SPEED: Final = 0.005
-"""Path speed below which a robot stands [m/s]: Lilibot rocks in place at 2, walks from 19 mm/s."""
-# A spread this small is rounding.
+"""Path speed below which a robot stands [m/s]. Lilibot rocks in place at 2 and walks at 19 mm/s."""
+
 _NO_SWAY: Final = 1e-9
+"""Standard deviation of an angle that is rounding [rad]."""
 
 
 def forward_distance(position: Array, yaw: Array) -> float | None:
-    """Net displacement along the initial heading [m]; negative when it walked backwards.
+    """Net displacement along the initial heading [m]; negative for a walk backwards.
 
-    Pitfall: a robot that turns walks further than this says; see ``path_length``.
+    Pitfall: a robot that turns walks further than this, see :func:`path_length`.
     """
     if len(position) < 2:
         return None
@@ -30,7 +31,7 @@ def forward_distance(position: Array, yaw: Array) -> float | None:
 def path_length(position: Array) -> float | None:
     """Length of the smoothed horizontal path of the trunk [m].
 
-    Pitfall: unsmoothed, the sway of every stride would count as distance walked.
+    Pitfall: without smoothing, the sway in every stride would add to the length.
     """
     if len(position) < 2:
         return None
@@ -39,12 +40,17 @@ def path_length(position: Array) -> float | None:
 
 
 def mean_speed(time: Array, distance: float | None) -> float | None:
-    """Distance [m] over the time from the first to the last sample [m/s]."""
+    """Distance over the time from the first to the last sample [m/s].
+
+    Args:
+        time: see ``apnc.metrics``.
+        distance: covered in that time [m]; None gives None.
+    """
     return None if distance is None else distance / float(time[-1] - time[0])
 
 
 def smoothed_speed(time: Array, position: Array, yaw: Array) -> Array:
-    """Speed of the smoothed path along the current (smoothed) heading [m/s], shape (T,)."""
+    """Speed of the smoothed path along the smoothed heading at each sample [m/s], shape (T,)."""
     if len(time) < 2:
         return np.full(len(time), np.nan)
     heading = smooth(np.unwrap(yaw))
@@ -54,16 +60,16 @@ def smoothed_speed(time: Array, position: Array, yaw: Array) -> Array:
 
 
 def turned(yaw: Array) -> float | None:
-    """Angle [rad] by which the trunk turned to the left over the run, beyond pi if it did."""
+    """Angle by which the trunk turned to the left over the run [rad]; it may exceed pi."""
     angle = np.unwrap(yaw)
     return float(angle[-1] - angle[0]) if len(angle) else None
 
 
 def balance(roll: Array, pitch: Array, speed: float | None) -> float | None:
-    """Balance of Fig. 7 [1/rad]: 1/std(roll) + 1/std(pitch).
+    """Balance of Fig. 7: 1 / std(roll) + 1 / std(pitch) [1/rad].
 
-    None if the robot stands, since a robot at rest has the best balance of all, or if the trunk did
-    not tilt. Pitfall: a slow robot sways less; read it with the speed.
+    None if the robot stands, since standing would give the best balance, or if the trunk did not
+    tilt. Pitfall: a slow robot sways less, so compare balances at the same speed.
     """
     if speed is None or speed < MIN_SPEED:
         return None
@@ -74,12 +80,17 @@ def balance(roll: Array, pitch: Array, speed: float | None) -> float | None:
 def cost_of_transport(
     time: Array, work: Array, mass: float, distance: float | None
 ) -> float | None:
-    """Cost of transport of Fig. 7 [1]: integral of abs(torque speed) dt over m g distance.
+    """Cost of transport of Fig. 7: integral of abs(torque speed) dt over m g distance [1].
 
-    ``work`` (T, ...) is what every servo did since the start [J], abs(torque speed) summed at every
-    integration step; at 60 Hz, as the authors sum it, a tenth is missed. ``mass`` [kg] of the
-    robot, ``distance`` along the path [m]. None if the robot stands. Pitfall: braking power counts
-    as spent, since a geared servo does not recover it.
+    None if the robot stands. Pitfall: braking power counts as spent, since a geared servo does not
+    recover it.
+
+    Args:
+        time: see ``apnc.metrics``.
+        work: integral of abs(torque speed) of each servo since the start [J], shape (T, ...). It is
+            summed at every integration step; a sum at 60 Hz, as the authors', misses a tenth.
+        mass: of the robot [kg].
+        distance: along the path [m].
     """
     speed = mean_speed(time, distance)
     if distance is None or speed is None or speed < MIN_SPEED:

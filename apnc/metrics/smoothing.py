@@ -1,4 +1,4 @@
-"""The one low-pass used by the metrics: the Savitzky-Golay filter of the authors' evaluation."""
+"""The low-pass of all metrics: the Savitzky-Golay filter of the authors' evaluation code."""
 
 from __future__ import annotations
 
@@ -10,14 +10,18 @@ import numpy as np
 from apnc_core.types import Array
 
 WINDOW: Final = 91
+"""Length of the window [samples]."""
+
 ORDER: Final = 2
+"""Degree of the polynomial."""
 
 
 def smooth(values: Array) -> Array:
-    """Smooth (T, ...) along time by local parabolas over 91 samples, or the longest odd number.
+    """Smooth values of shape (T, ...) along time by a parabola around each sample.
 
-    Pitfall: at 60 Hz the window spans 1.5 s. It removes most of what happens within a stride and
-    delays nothing, but the first and last 0.75 s are extrapolated from a one-sided fit.
+    The window has 91 samples, or the largest odd number of a shorter run. Pitfall: at 60 Hz it
+    spans 1.5 s. It removes most of the motion within a stride and delays nothing, but the first and
+    the last 0.75 s come from a one-sided fit.
     """
     length = min(WINDOW, len(values) - 1 + len(values) % 2)
     if length <= ORDER:

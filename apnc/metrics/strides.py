@@ -1,7 +1,7 @@
-"""Stance, strides, and what is measured per stride: duty factor, coordination, feet.
+"""Stance and strides, and the figures of a stride: duty factor, coordination, lift and slip.
 
-A stride of a leg is a cycle of its oscillator, from mid-swing to mid-swing. A foot that touches
-the ground twice in a cycle has made one stride: its contacts are merged into one share of stance.
+A stride of a leg is a cycle of its oscillator, from mid-swing to mid-swing. A foot that touches the
+ground twice in a cycle still makes one stride, and its share of stance is that of both contacts.
 """
 
 from __future__ import annotations
@@ -20,53 +20,66 @@ Bool = NDArray[np.bool_]
 
 MID_SWING: Final = 1.5 * np.pi
 """Phase of the CPG at which o2 and with it the command to the knee peaks [rad]."""
-# The authors' tenth of the largest force; the other two: docs/decisions/stance-and-strides.md.
 STANCE_SHARE: Final = 0.1
+"""Share of the largest force above which a foot stands, from the authors' evaluation code [1]."""
+
 PEAK_QUANTILE: Final = 0.99
+"""Quantile that stands for the largest force [1], see docs/decisions/stance-and-strides.md."""
+
 MIN_RUN: Final = 3
-# A spread this small is the rounding of identical strides.
+"""Shortest contact or gap that counts [samples], see docs/decisions/stance-and-strides.md."""
+
 _NO_SPREAD: Final = 1e-9
+"""Standard deviation of a share of stance that is the rounding of identical strides [1]."""
 
 
 def stance(force: Array) -> Bool:
-    """Which feet stand, shape (T, n): vertical force (T, n) above a tenth of the largest of leg 1.
+    """Which feet stand, shape (T, n).
 
-    Threshold of the authors' evaluation code, but contacts and gaps below three samples are removed
-    as flicker, and the largest force is the 99 % quantile: one impact of leg 1 (three times the
-    weight for a sample) would hide the stance of all legs.
+    A foot stands while its force is above a tenth of the largest force of leg 1, as in the authors'
+    evaluation code. Two things differ from it. Contacts and gaps shorter than three samples are
+    removed. The largest force is the 99 % quantile, since an impact of leg 1 of three times the
+    weight in one sample would hide the stance of all legs.
+
+    Args:
+        force: vertical force of the ground on every foot [N], shape (T, n).
     """
     if force.size == 0:
         return np.zeros(force.shape, dtype=np.bool_)
     largest = max(float(np.quantile(force[:, 0], PEAK_QUANTILE)), 0.0)
     standing = force > STANCE_SHARE * largest
-    # Gaps first: a contact cut in two by one lost sample must not be removed as two short ones.
+    # gaps first, so that one lost sample does not make two short contacts, both removed, of one
     return _without_short(~_without_short(~standing))
 
 
 def cycle_starts(o1: Array, o2: Array) -> list[Array]:
-    """When the cycles of every oscillator begin [samples, with fractions], one array per leg.
+    """When the cycles of each oscillator begin [samples, with fractions], an array per leg.
 
-    A cycle begins when the unwrapped phase first passes mid-swing, so k + 1 starts are k strides.
-    An oscillator that rests, or swings to and fro without going round, has no cycle.
+    A cycle begins where the unwrapped phase first passes mid-swing, so k + 1 starts are k strides.
+    An oscillator that rests, or moves to and fro without a full turn, has no cycle.
     """
     phases = np.unwrap(cpg_phase(o1, o2), axis=0)
     return [_passages(phase) for phase in np.maximum.accumulate(phases, axis=0).T]
 
 
 def stride_frequency(starts: Sequence[Array], sample_time: float) -> float | None:
-    """Stride frequency [Hz]: one over the median duration of a cycle, mean over the legs.
+    """Stride frequency: one over the median duration of a cycle, mean over the legs [Hz].
 
-    The median, so that the quicker cycles in which the gait forms do not count as the walk. A leg
-    without a stride does not count; None if there is no other.
+    With the median, the quicker cycles in which the gait forms have no weight. Legs without a
+    stride do not count; None if no leg has one.
     """
     periods = [sample_time * float(np.median(np.diff(s))) for s in starts if len(s) > 1]
     return float(np.mean([1.0 / period for period in periods])) if periods else None
 
 
 def stride_length(speed: float | None, frequency: float | None) -> float | None:
-    """Way in a stride [m], of the speed along the path [m/s] and the stride frequency [Hz].
+    """Way of the trunk along its path in a stride [m].
 
-    None if the robot stands, or none of its oscillators goes round.
+    None if the robot stands or has no stride frequency.
+
+    Args:
+        speed: along the path [m/s].
+        frequency: of the strides [Hz].
     """
     if speed is None or speed < MIN_SPEED or frequency is None:
         return None
@@ -74,17 +87,18 @@ def stride_length(speed: float | None, frequency: float | None) -> float | None:
 
 
 def duty_factors(standing: Bool, starts: Sequence[Array]) -> list[float | None]:
-    """Duty factor per leg [1]: mean share of stance over its strides; None for a leg without one.
+    """Duty factor of each leg: mean share of stance in a stride [1]; None without a stride.
 
-    Pitfall: 1 for a leg whose oscillator runs but whose foot never leaves the ground.
+    Pitfall: it is 1 for a leg whose oscillator runs but whose foot never leaves the ground.
     """
     return _means(_stance_shares(standing, starts))
 
 
 def touch_downs_per_stride(standing: Bool, starts: Sequence[Array]) -> list[float | None]:
-    """Mean number of touch-downs in a stride, per leg; None for a leg without a stride.
+    """Mean number of touch-downs in a stride of each leg [1]; None without a stride.
 
-    One is a clean step. More means that the foot scuffs the ground in swing, less that it drags.
+    It is 1 for a clean step. It is larger if the foot touches the ground in swing, and smaller if
+    the foot does not leave the ground in every stride.
     """
     down = np.zeros(standing.shape)
     down[1:] = standing[1:] & ~standing[:-1]
@@ -92,10 +106,10 @@ def touch_downs_per_stride(standing: Bool, starts: Sequence[Array]) -> list[floa
 
 
 def coordination(standing: Bool, starts: Sequence[Array], speed: float | None) -> float | None:
-    """Coordination of Fig. 7 [1]: 1 / largest standard deviation of the stance share of any leg.
+    """Coordination of Fig. 7: 1 / largest standard deviation of the share of stance of a leg [1].
 
     None if a leg made fewer than two strides, if the strides do not vary at all, or if the robot
-    stands: feet that never lift vary least of all, which is no coordination.
+    stands, since feet that never lift vary least.
     """
     shares = _stance_shares(standing, starts)
     if speed is None or speed < MIN_SPEED or min(len(s) for s in shares) < 2:
@@ -105,12 +119,16 @@ def coordination(standing: Bool, starts: Sequence[Array], speed: float | None) -
 
 
 def foot_lifts(foot_position: Array, standing: Bool, starts: Sequence[Array]) -> list[float | None]:
-    """Height of the foot in mid-swing above its mean height in stance [m], mean per leg or None.
+    """Height of the foot in mid-swing above its mean height in stance [m]; None without a stride.
 
-    ``foot_position``: centre of every foot in the world frame [m], shape (T, n, 3). The stance of a
-    stride is compared with the mid-swings before and after it, so that a slope cancels; a stride
-    without stance does not count. Pitfall: mid-swing is the oscillator's; the servos follow some
-    hundredths of a second later, and the foot may be highest at another moment.
+    Mean over the strides of each leg. The stance of a stride is compared with the mid-swings before
+    and after it, so that a slope cancels. A stride without stance does not count. Pitfall:
+    mid-swing is that of the oscillator. The servos follow a few hundredths of a second later, and
+    the foot may be highest at another moment.
+
+    Args:
+        foot_position: centre of every foot in the world frame [m], shape (T, n, 3).
+        standing, starts: see ``apnc.metrics``.
     """
     height = foot_position[..., 2]
     samples, heights = _sums(standing, starts), _sums(np.where(standing, height, 0.0), starts)
@@ -123,10 +141,14 @@ def foot_lifts(foot_position: Array, standing: Bool, starts: Sequence[Array]) ->
 
 
 def slips(foot_position: Array, standing: Bool, starts: Sequence[Array]) -> list[float | None]:
-    """Horizontal way of the foot while it stands [m per stride], mean per leg or None.
+    """Horizontal way of the foot in the stance of a stride [m]; None without a stride.
 
-    Pitfall: the centre of a ball that rolls without slipping moves too, by its radius times the
-    angle the leg turns: about 4 mm for Lilibot.
+    Mean over the strides of each leg. Pitfall: the centre of a foot that rolls without slipping
+    moves too, by its radius times the angle by which the leg turns. That is about 4 mm for Lilibot.
+
+    Args:
+        foot_position: centre of every foot in the world frame [m], shape (T, n, 3).
+        standing, starts: see ``apnc.metrics``.
     """
     x, y = np.diff(foot_position[..., 0], axis=0), np.diff(foot_position[..., 1], axis=0)
     way = np.zeros(standing.shape)
@@ -135,16 +157,16 @@ def slips(foot_position: Array, standing: Bool, starts: Sequence[Array]) -> list
 
 
 def _stance_shares(standing: Bool, starts: Sequence[Array]) -> list[Array]:
-    """Share of stance in every stride, one array per leg."""
+    """Share of stance in every stride [1], an array per leg."""
     lengths = (np.diff(_firsts(begin)) for begin in starts)
     return [time / length for time, length in zip(_sums(standing, starts), lengths, strict=True)]
 
 
 def _sums(values: Array | Bool, starts: Sequence[Array]) -> list[Array]:
-    """Sum of the values (T, n) over every stride, one array per leg."""
+    """Sum of the values (T, n) over every stride, an array per leg."""
     columns = zip(values.T, map(_firsts, starts), strict=True)
-    # Each stride has samples, as reduceat needs: in a tick an unwrapped phase moves by half a turn
-    # at most. After the last start no whole stride is left.
+    # reduceat needs a sample in each stride: an unwrapped phase moves by at most half a turn in a
+    # tick. What it sums after the last start is not a whole stride.
     return [np.add.reduceat(column, at, dtype=np.float64)[:-1] for column, at in columns]
 
 
@@ -158,7 +180,7 @@ def _means(figures: Sequence[Array]) -> list[float | None]:
 
 
 def _passages(phase: Array) -> Array:
-    """Samples at which a phase that never falls passes mid-swing."""
+    """When a phase that never falls passes mid-swing [samples, with fractions]."""
     if len(phase) == 0:
         return np.empty(0)
     turns = (phase[[0, -1]] - MID_SWING) / (2 * np.pi)

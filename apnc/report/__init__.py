@@ -1,4 +1,4 @@
-"""Reports: one HTML file with plots that is readable offline, and the folder of a run."""
+"""Reports: one HTML file with plots that opens without a network, and the folder of a run."""
 
 from typing import Final
 

@@ -14,22 +14,26 @@ from apnc_core.types import Array
 from apnc_plant.ground import Ground
 
 REACH: Final = 4.5
-"""Ground that is drawn around the robot, in diagonals of it from above."""
+"""How far the ground is drawn around the path [diagonals of the robot seen from above]."""
 
 AREA: Final = 60.0
-"""Ground that is drawn at most [m²], around the end of the path: 2 MB."""
+"""Largest area of ground that is drawn [m²], about 2 MB of page.
+
+On a longer path it lies around the end.
+"""
 
 LANDMARK: Final = 0.5
-"""Straight lines at multiples of this are drawn stronger and show the progress [m]."""
+"""Spacing of the straight lines that are drawn stronger, to show the progress [m]."""
 
 
 def animation_data(run: Run) -> dict[str, Any]:
-    """Everything the animation needs, in the world frame, arrays in base64.
+    """Everything the animation needs, in the world frame; arrays are in base64.
 
-    Keys with an entry per shown sample: ``position``, ``rpy``, ``focus`` (what the camera looks at)
-    and ``track`` (the trunk, on the ground) of 3, ``corners`` of (8, 3), ``chains`` of (n, 4, 3)
-    and ``force`` of (n, 3) 32-bit floats; ``stance`` of n bytes. ``ground`` and ``landmarks`` are
-    points of lines, with NaN between two lines.
+    Some arrays have an entry for each shown sample, in 32-bit floats: ``position``, ``rpy``,
+    ``focus`` (what the camera looks at) and ``track`` (the trunk, projected on the ground) of shape
+    (3,), ``corners`` of shape (8, 3), ``chains`` of shape (n, 4, 3) and ``force`` of shape (n, 3).
+    ``stance`` has n bytes for each. ``ground`` and ``landmarks`` are points of lines, with NaN
+    between two lines.
     """
     record, at, plant = run.record, run.samples.at, run.shown
     ground, opens = record.experiment.ground, run.samples.opens_at
@@ -64,7 +68,7 @@ def animation_data(run: Run) -> dict[str, Any]:
 
 
 def _lines(ground: Ground, path: Array, reach: float) -> list[Array]:
-    """Lines of the ground around the path, or its end, in the frame of the ground."""
+    """Lines of the ground around the path or, if it is long, its end, in the ground's frame."""
     low, high = path[:, :2].min(axis=0) - reach, path[:, :2].max(axis=0) + reach
     if np.prod(high - low) > AREA and len(path) > 1:
         return _lines(ground, path[len(path) // 2 :], reach)

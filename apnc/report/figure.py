@@ -1,4 +1,4 @@
-"""The one kind of plot: what the report of a walk and that of a study are made of."""
+"""A plot in the report of a walk or of a study."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ class Figure:
     """A plotly figure as plain data, with its heading.
 
     Args:
-        key: name of its element in the page, unique there.
+        key: name of its element, unique in the page.
         title: heading.
         note: how to read it.
-        data: traces; one over time without ``x`` is drawn over the time vector of the page.
-        layout: plotly layout, see :func:`apnc.report.theme.layout`; ``height`` [px] must be there.
-        over_time: its x-axis is time [s] and moves with the others of the page.
+        data: traces of plotly; a trace over time without ``x`` takes the times of the page.
+        layout: layout of plotly with a ``height`` [px], see :func:`apnc.report.theme.layout`.
+        over_time: whether its x-axis is time [s] and moves with those of the other plots.
     """
 
     key: str
@@ -29,7 +29,7 @@ class Figure:
     over_time: bool = True
 
     def to_dict(self) -> dict[str, Any]:
-        """What the script of the page draws."""
+        """Plain dictionary for the script of the page that draws the plot."""
         return {
             "key": self.key,
             "data": self.data,

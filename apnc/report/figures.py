@@ -56,7 +56,7 @@ def phases(run: Run) -> Figure:
     own = {"width": 1, "dash": "dot", "visible": "legendonly", "legendgroup": "fmu"}
     traces = []
     for k, leg in enumerate(legs[1:]):
-        # One entry for all: with six legs and more the legend would cover what is above it.
+        # one entry for all, since with six legs the legend would cover the plot above
         one, more = own | {"showlegend": k == 0}, " …" if k == 0 else ""
         for name, phi, style in (
             (f"φ1{k + 2} ({legs[0]}–{leg})", smoothed[:, k], {"width": 2.4}),
@@ -69,7 +69,7 @@ def phases(run: Run) -> Figure:
         "Relative phases",
         f"Smoothed over 1.5 s; positive where the leg is ahead of {legs[0]}. Dashed: target gait "
         f"({metrics.gait_name(len(legs))}) with the ±{metrics.STRICT_TOLERANCE} rad of the strict "
-        "criterion. Dotted, by a click on the legend: the phases that the FMU estimates.",
+        "criterion. Click on the legend to show the phases that the FMU estimates, dotted.",
         traces,
         theme.axis("relative phase [rad]", range=[-np.pi / 2, 3 * np.pi / 2], **PI_TICKS),
         height=330,
@@ -140,12 +140,12 @@ def _clearances(run: Run) -> Figure:
 
 def _loads(run: Run) -> Figure:
     force = run.record.signals["foot_force"][..., 2]
-    # A handful of impacts may be ten times the load of a step and would flatten every step.
+    # a few impacts of ten times the load of a step would make every step look flat
     usual = max(float(np.nanquantile(force, 0.995)), 1.0)
     series = {"force of the ground": force, "sensor": run.record.signals["grf"]}
     note = (
-        "Vertical force of the ground on the foot, and what the sensor of the foot tells the FMU. "
-        "The rows cut off impact peaks; Autoscale shows them."
+        "Vertical force of the ground on the foot, and the load that the sensor of the foot sends "
+        "to the FMU. Peaks of impacts are cut off; Autoscale shows them."
     )
     limits = [-0.05 * usual, 1.2 * usual]
     return run.leg_rows("grf", "Ground reaction forces", "N", series, note, range=limits)
@@ -162,8 +162,8 @@ def _gains(run: Run) -> Figure:
     gamma = run.record.signals["gamma"].T
     lines = [run.line(g, *leg) for g, leg in zip(gamma, run.colours.items(), strict=True)]
     note = (
-        "Gain of the load feedback on each CPG as it acts: learned while walking (Eq. 9), times "
-        "feedback_kept once the couplings are on."
+        "Gain with which the load feedback acts on each CPG. It is learned while walking (Eq. 9), "
+        "and multiplied by feedback_kept once the couplings are on."
     )
     axis = theme.axis("γ [1]", rangemode="tozero")
     return _over_time("gamma", "Sensory feedback gain γ", note, lines, axis)
@@ -178,7 +178,7 @@ def _stability(run: Run) -> Figure:
     return _over_time(
         "kappa",
         "Phase stability d and coupling switch κ",
-        "κ = 1: the neural coupling (ANC) holds the stored phases. d: how much they still vary.",
+        "κ = 1: the neural coupling (ANC) keeps the stored phases. d: how much the phases vary.",
         [kappa, d],
         theme.axis("d [rad]", rangemode="tozero"),
         yaxis2=theme.axis("κ [1]", showgrid=False, **right),
@@ -190,8 +190,8 @@ def _angles(run: Run, joint: str) -> Figure:
     commanded = run.record.signals[f"theta_{joint}"]
     series = {"actual": np.degrees(actual), "commanded": np.degrees(commanded)}
     note = (
-        f"Against the reference pose; a positive angle {JOINT_SIGNS[joint]}. Commanded: by the "
-        "FMU, before the limits of the servo and damage."
+        f"Measured from the reference pose; a positive angle {JOINT_SIGNS[joint]}. Commanded: "
+        "output of the FMU, before limits of the servo and damage act."
     )
     return run.leg_rows(joint, f"{joint.capitalize()} angles", "°", series, note)
 
@@ -207,7 +207,7 @@ def _bars(run: Run, row: int) -> Trace:
     record, standing = run.record, run.standing[:, row].astype(np.int8)
     edges = np.flatnonzero(np.diff(standing, prepend=0, append=0))
     ends = np.append(record.time, record.ended_at)[edges]
-    # One broken line instead of thousands of bars: a long run stays quick.
+    # one line with gaps, since thousands of bars would make a long run slow to draw
     x = np.insert(ends, np.arange(2, len(ends) + 1, 2), np.nan)
     bars = line(np.full(len(x), float(row)), record.legs[row], theme.BLACK, width=20)
     hover = f"{record.legs[row]}, %{{x:.2f}} s<extra></extra>"
@@ -215,7 +215,7 @@ def _bars(run: Run, row: int) -> Trace:
 
 
 def _second_touches(run: Run) -> Trace:
-    """Marks where a foot comes down again in the same cycle of its oscillator."""
+    """Marks where a foot touches down again in the same cycle of its oscillator."""
     c, x, y = run.record.signals, [], []
     starts = metrics.cycle_starts(c["o1"], c["o2"])
     for row, (stands, start) in enumerate(zip(run.standing.T, starts, strict=True)):
@@ -236,7 +236,7 @@ def _level(y: float, kind: str = "line", half: float = 0.0) -> Trace:
 
 
 def _uncut(phase: Array) -> Array:
-    """The phase as shown, without the strokes where it leaves on one side and comes back."""
+    """The phase as shown, without the lines across the plot where it wraps."""
     shown = metrics.wrap_for_display(phase)
     shown[1:][np.abs(np.diff(shown)) > np.pi] = np.nan
     return shown

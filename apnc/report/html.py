@@ -1,4 +1,4 @@
-"""One HTML file that needs nothing but a browser: the frame of every report."""
+"""The frame of every report: one HTML file that needs nothing but a browser."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ def page(
     """Text of a page.
 
     Args:
-        template: extends ``base.html.j2`` (blocks title, style, header, main) and includes
-            ``figure.html.j2`` for each ``figure``.
-        figures: all of them; with one or more the page carries plotly.js, about 5 MB.
-        package: has the template in its folder ``templates``.
-        scripts: further templates, run as scripts after the figures are drawn.
-        data: what the scripts find as ``apnc.data``; ``time`` is the time vector of the figures.
-        context: names for the template.
+        template: name of a template that extends ``base.html.j2`` (blocks title, style, header,
+            main) and includes ``figure.html.j2`` for each figure.
+        figures: of the page. A page with a figure contains plotly.js, about 5 MB.
+        package: package with the template in its folder ``templates``.
+        scripts: names of further templates that run as scripts after the figures are drawn.
+        data: what the scripts read as ``apnc.data``; ``time`` has the times of the figures.
+        context: names in the template.
     """
     places = dict.fromkeys((package, "apnc.report"))
     environment = jinja2.Environment(

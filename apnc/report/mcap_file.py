@@ -1,4 +1,4 @@
-"""A walk as an MCAP log of ROS 2 messages, for Foxglove, PlotJuggler and the like."""
+"""A walk as an MCAP log of ROS 2 messages, e.g. for Foxglove and PlotJuggler."""
 
 from __future__ import annotations
 
@@ -47,19 +47,20 @@ _DEFINITIONS: Final = {
 
 
 def write_mcap(record: Record, path: Path) -> None:
-    """Write joint states and commands, the trunk's pose, foot forces and the controller's state.
+    """Write joint states and commands, pose of the trunk, foot forces and state of the controller.
+
+    Topics are ``/joint_states`` and ``/joint_commands`` (JointState), ``/trunk`` (PoseStamped),
+    ``/foot_force/RF`` ... (WrenchStamped in the world frame), and ``/apnc/phi12`` ...,
+    ``/apnc/kappa`` and ``/apnc/d`` (Float64). Time starts at 0. Names of legs in topics and joints
+    are plain, see ``apnc_plant.robot.names``.
 
     Args:
         record: the run.
         path: file to write.
 
     Raises:
-        ModuleNotFoundError: the extra ``mcap`` is missing.
+        ModuleNotFoundError: the extra ``mcap`` is not installed.
         OSError: the file cannot be written.
-
-    Topics: ``/joint_states`` and ``/joint_commands`` (JointState), ``/trunk`` (PoseStamped),
-    ``/foot_force/RF`` ... (WrenchStamped, world frame), ``/apnc/phi12`` ..., ``/apnc/kappa``,
-    ``/apnc/d`` (Float64). Time starts at 0. In topics and names of joints legs have plain names.
     """
     from mcap_ros2.writer import Writer  # noqa: PLC0415  # an extra
 

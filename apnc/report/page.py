@@ -20,13 +20,14 @@ from apnc.report.wording import facts, heading, rows, verdicts
 from apnc_plant.signals import PLANT_SIGNALS
 
 BEYOND: Final = 1e4
-"""Size from which on a length, angle, speed, force or torque is that of a diverged motion [SI]."""
+"""Smallest length, angle, speed, force or torque that only a diverged motion has [SI units]."""
 
 
 def render(record: Record, summary: WalkFeatures) -> str:
-    """HTML text of the report of a run, however it ended.
+    """HTML text of the report of a run, however the run ended.
 
-    Pitfall: it carries plotly.js (about 5 MB) and what it shows of the record; it is no archive.
+    Pitfall: it contains plotly.js (about 5 MB) and the part of the record that it shows. The whole
+    record is in ``record.csv``.
     """
     shown = drawable(record)
     run = Run(shown, summary) if len(shown) else None
@@ -46,14 +47,14 @@ def render(record: Record, summary: WalkFeatures) -> str:
 
 
 def drawable(record: Record) -> Record:
-    """The run without the end of a diverged motion, whose numbers have no scale to draw them on."""
+    """The run without the end of a diverged motion, whose numbers are too large to be drawn."""
     if record.end is not End.diverged:
         return record
-    # work grows without bounds in a sound motion, too
+    # not the work, which grows without bounds in a sound motion too
     names = [signal.name for signal in PLANT_SIGNALS if signal.name != "joint_work"]
     values = [record.signals[name].reshape(len(record), -1) for name in names]
     largest = np.abs(np.concatenate(values, axis=1)).max(axis=1)
-    unsound = np.flatnonzero(~(largest < BEYOND))  # NaN, too
+    unsound = np.flatnonzero(~(largest < BEYOND))  # NaN too
     return record.until(int(unsound[0])) if len(unsound) else record
 
 
@@ -72,12 +73,13 @@ def _notes(record: Record, run: Run | None) -> list[str]:
         notes.append("The run ended before its first sample; there is nothing to plot.")
     elif drawn < len(record):
         notes.append(
-            f"From {record.time[drawn]:.2f} s on the motion has no scale (numbers beyond "
-            f"{BEYOND:g}); it is not drawn. record.csv has it."
+            f"From {record.time[drawn]:.2f} s on the motion is not drawn, since its numbers exceed "
+            f"{BEYOND:g}. record.csv has it."
         )
     if run and (block := run.samples.block):
         notes.append(
-            f"A long run: but for the last {LATE_S:g} s, lines show the least and the largest of "
-            f"every {block} samples, the animation every {block // 2}th. record.csv has them all."
+            f"This run is long. Before the last {LATE_S:g} s, lines show the least and the largest "
+            f"of every {block} samples, and the animation shows every {block // 2}th sample. "
+            "record.csv has all samples."
         )
     return notes

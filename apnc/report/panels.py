@@ -1,4 +1,4 @@
-"""Rows of lines over one time axis, and the lines in them."""
+"""What the panels of a report are made from: lines, and rows of lines over one time axis."""
 
 from __future__ import annotations
 
@@ -20,14 +20,21 @@ from apnc.report.samples import Samples
 from apnc_core.types import Array
 from apnc_plant.signals import PLANT_SIGNALS
 
-# Solid and dotted: told apart without colours.
 STYLES: Final = ({"width": 1.7, "dash": "solid"}, {"width": 1.3, "dash": "dot"})
+"""Solid and dotted lines, which differ without colours."""
+
 _ROW: Final = 78
+"""Height of a row [px]."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """What every panel is made from; the record has at least one sample."""
+    """What every panel is made from.
+
+    Args:
+        record: the run, with at least one sample.
+        summary: what is measured of it.
+    """
 
     record: Record
     summary: WalkFeatures
@@ -53,13 +60,20 @@ class Run:
         return theme.leg_colours(self.record.legs)
 
     def line(self, values: Array, name: str, colour: str, **style: Any) -> Trace:
-        """Line over the time of the page of a signal of shape (T,)."""
+        """A line of a signal of shape (T,) over the time of the page."""
         return line(self.samples.of(values), name, colour, **style)
 
     def leg_rows(
         self, key: str, title: str, unit: str, series: dict[str, Array], note: str, **axes: Any
     ) -> Figure:
-        """A row per leg, all on the same scale, of at most two signals of shape (T, n) by name."""
+        """A row for each leg, all on one scale.
+
+        Args:
+            key, title, note: see :class:`Figure`.
+            unit: of the signals.
+            series: at most two signals by name, each of shape (T, n).
+            axes: of every row, see :func:`apnc.report.theme.axis`.
+        """
         styled = list(zip(series.items(), STYLES, strict=False))
         rows = [
             (f"<b>{leg}</b> [{unit}]", [
@@ -69,14 +83,21 @@ class Run:
             for i, (leg, colour) in enumerate(self.colours.items())
         ]  # fmt: skip
         figure = stacked(key, title, note, rows, matches="y", **axes)
-        # The legend explains the styles once, not once per leg.
+        # empty lines, so that the legend shows the styles once and not for each leg
         empty = {"x": [None], "y": [None], "hoverinfo": "skip"}
         figure.data.extend(line(np.empty(0), n, theme.INK, **s) | empty for (n, _), s in styled)
         return figure
 
 
 def line(values: Array, name: str, colour: str, **style: Any) -> Trace:
-    """A line of samples as they are; ``style`` may set width and dash, the rest is the trace's."""
+    """A line through samples.
+
+    Args:
+        values: shape (T,), drawn as they are.
+        name: in the legend.
+        colour: of the line.
+        style: ``width`` and ``dash`` of the line, and further entries of the trace.
+    """
     look = {"color": colour, "width": style.pop("width", 1.6), "dash": style.pop("dash", "solid")}
     trace = {"type": "scatter", "mode": "lines", "y": float32(values), "name": name, "line": look}
     return trace | style
@@ -85,14 +106,20 @@ def line(values: Array, name: str, colour: str, **style: Any) -> Trace:
 def stacked(
     key: str, title: str, note: str, rows: Sequence[tuple[str, Iterable[Trace]]], **axes: Any
 ) -> Figure:
-    """Rows under one another over one time axis: title with unit and lines of each."""
+    """Rows under one another over one time axis.
+
+    Args:
+        key, title, note: see :class:`Figure`.
+        rows: title with unit and lines of each.
+        axes: of every row, see :func:`apnc.report.theme.axis`.
+    """
     names = [f"y{i + 1}" if i else "y" for i in range(len(rows))]
     grid = {"rows": len(rows), "columns": 1, "subplots": [[f"x{y}"] for y in names], "ygap": 0.12}
     time = theme.axis("time [s]", anchor=names[-1])
     layout = theme.layout(80 + _ROW * len(rows), grid=grid, xaxis=time)
     data: list[Trace] = []
     for y, (label, lines) in zip(names, rows, strict=True):
-        # plotly takes no axis that matches itself
+        # plotly refuses an axis that matches itself
         own = {name: value for name, value in axes.items() if (name, value) != ("matches", y)}
         layout[f"yaxis{y[1:]}"] = theme.axis(label, nticks=5, showline=True, mirror=True, **own)
         data += [trace | {"yaxis": y} for trace in lines]

@@ -1,4 +1,4 @@
-"""Which samples a page shows: all of a short run, fewer of a long one."""
+"""Which samples a page shows: all of a short run, and fewer of a long one."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import numpy as np
 from apnc_core.types import Array
 
 SHOWN: Final = 15_000
-"""Samples per line of which a page shows every one; 250 s at 60 Hz, 16 MB of page."""
+"""Most samples of a run of which a page shows every one: 250 s at 60 Hz, 16 MB of page."""
 
 LATE_S: Final = 10.0
-"""Last part of a long run [s]: shown in full, and what the page opens on."""
+"""Length of the end of a long run that is shown in full, and with which the page opens [s]."""
 
 
 class Samples:
@@ -23,8 +23,9 @@ class Samples:
         time: sample times of the run [s], shape (T,), at least one.
 
     Attributes:
-        block: so many samples of a long run are shown by the least and the largest of them.
-        at: indices of the samples whose times stand for what is shown.
+        block: number of samples of a long run that are shown by their least and their largest;
+            0 for a short run.
+        at: indices of the samples whose times are shown.
     """
 
     def __init__(self, time: Array) -> None:
@@ -36,14 +37,14 @@ class Samples:
 
     @property
     def opens_at(self) -> int | None:
-        """First sample of what a long run opens on; None for a short one."""
+        """First sample of the part with which a long run opens; None for a short run."""
         return self.early if self.block else None
 
     def of(self, values: Array) -> Array:
-        """What is shown of a signal of shape (T,), one value per index in ``at``.
+        """What is shown of a signal of shape (T,): a value for each index in ``at``.
 
-        Every second value of a block is the least, the others are the largest; the least comes
-        first where the signal rises.
+        A block has two values, its least and its largest. The least is first where the signal
+        rises.
         """
         if not self.block:
             return values

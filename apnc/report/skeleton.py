@@ -1,4 +1,4 @@
-"""Where trunk, legs and feet of a robot were in the world, for the drawing."""
+"""Points of the trunk, legs and feet of a robot in the world, for the animation."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ def trunk_corners(robot: RobotDescription, plant: Plant) -> Array:
 def leg_chains(robot: RobotDescription, plant: Plant) -> Array:
     """Points of every leg [m], shape (T, n, 4, 3): hip1, hip2, knee, foot.
 
-    Positive hip and knee angles swing the leg forward. The foot is the recorded one, so a wrong
-    robot shows as a leg of the wrong length, not as a floating foot.
+    Positive hip and knee angles swing the leg forward. The foot is the recorded one. With another
+    robot than that of the record, tibias have a wrong length but feet stay on the ground.
     """
     abduction, hip, _ = np.moveaxis(plant["joint_angle"], -1, 0)
     legs = robot.legs
@@ -49,8 +49,8 @@ def clearance(ground: Ground, robot: RobotDescription, feet: Array) -> Array:
     """Lowest point of every foot over the ground below its centre [m], shape (T, n).
 
     Args:
-        ground: what is below.
-        robot: says how large the feet are.
+        ground: below the feet.
+        robot: with the radius of the feet.
         feet: centres of the feet in the world [m], shape (T, n, 3).
     """
     x, y, z = np.moveaxis(in_ground(ground, feet), -1, 0)
@@ -59,7 +59,7 @@ def clearance(ground: Ground, robot: RobotDescription, feet: Array) -> Array:
 
 
 def _in_world(plant: Plant, points: Array) -> Array:
-    """Points of the trunk, shape (T or 1, k, 3), by Rz(yaw) Ry(pitch) Rx(roll) and its place."""
+    """Points of the trunk, shape (T or 1, k, 3), in the world, by Rz(yaw) Ry(pitch) Rx(roll)."""
     turn = Rotation.from_euler("xyz", plant["rpy"]).as_matrix()
     placed: Array = plant["position"][:, None] + points @ turn.swapaxes(1, 2)
     return placed

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Final
 
-# Okabe & Ito (2008), readable with the common colour vision deficiencies; yellow is left out
-# because it vanishes on white.
+# Colours of Okabe and Ito (2008), which people with colour vision deficiencies can tell apart;
+# without yellow, which is hard to see on white.
 BLUE: Final = "#0072B2"
 ORANGE: Final = "#E69F00"
 GREEN: Final = "#009E73"
@@ -30,7 +30,7 @@ _BY_NAME: Final = {
 
 
 def leg_colours(legs: Sequence[str]) -> dict[str, str]:
-    """One colour per leg, the same in every plot and in the animation."""
+    """Colour of each leg, the same in every plot and in the animation."""
     spare = [c for c in _BY_NAME.values() if c not in [_BY_NAME.get(leg) for leg in legs]]
     spare += [INK, GREY]
     others = [leg for leg in legs if leg not in _BY_NAME]
@@ -39,7 +39,7 @@ def leg_colours(legs: Sequence[str]) -> dict[str, str]:
 
 
 def axis(title: str, **more: Any) -> dict[str, Any]:
-    """Axis with a title, faint grid and no zero line."""
+    """An axis of plotly with a title, a faint grid and no zero line; ``more`` adds entries."""
     common = {
         "title": {"text": title, "standoff": 8},
         "gridcolor": GRID,
@@ -53,7 +53,14 @@ def axis(title: str, **more: Any) -> dict[str, Any]:
 
 
 def layout(height: int, **more: Any) -> dict[str, Any]:
-    """Layout of a plot; fixed left and right margins keep all time axes aligned."""
+    """Layout of a plot.
+
+    The margins on the left and right are fixed, so that all time axes are aligned.
+
+    Args:
+        height: of the plot [px].
+        more: further entries of the layout of plotly.
+    """
     common = {
         "height": height,
         "margin": {"l": 74, "r": 46, "t": 34, "b": 44},

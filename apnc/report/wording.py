@@ -1,4 +1,4 @@
-"""What was run and what came of it, in plain words and formatted figures."""
+"""Texts of the report and the command line: what was run, and what is measured of it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,14 @@ _SPEAK_FOR_THEMSELVES: Final = ("robot", "controller", "ground", "conditions")
 
 @dataclass(frozen=True)
 class Verdict:
-    """One finding: what was asked, the answer in a word, the detail, and whether it is good."""
+    """The answer to a question of the reader.
+
+    Args:
+        question: what is asked.
+        answer: in a word or two.
+        detail: in a line.
+        mood: good, fair, bad or plain; the page colours it so.
+    """
 
     question: str
     answer: str
@@ -31,7 +38,7 @@ class Verdict:
 
 
 def heading(experiment: Experiment) -> str:
-    """What is not default, in a line."""
+    """What of an experiment is not default, in a line."""
     changed = {**experiment.changed()}
     settings = changed.pop("settings", {})
     words = [
@@ -44,7 +51,7 @@ def heading(experiment: Experiment) -> str:
 
 
 def facts(record: Record) -> list[tuple[str, str]]:
-    """What was run: name and value."""
+    """What was run: names and values."""
     e = record.experiment
     p = record.parameters or e.parameters()
     stored = p["phi_stored"] if p["stored"] else None
@@ -61,7 +68,7 @@ def facts(record: Record) -> list[tuple[str, str]]:
 
 
 def _own_fmu(e: Experiment, parameters: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """The FMU of one's own, and which of its own start values held."""
+    """The user's FMU, and those of its own start values that held."""
     if e.fmu is None:
         return []
     held = {name: value for name, value in e.fmu_starts.items() if parameters[name] == value}
@@ -69,19 +76,24 @@ def _own_fmu(e: Experiment, parameters: Mapping[str, Any]) -> list[tuple[str, st
 
 
 def verdicts(summary: WalkFeatures, planned: float) -> list[Verdict]:
-    """The three questions a reader has first, about a run that was to last ``planned`` [s]."""
+    """Whether it walked, whether the gait formed, and how fast it was.
+
+    Args:
+        summary: what is measured of the run.
+        planned: duration that was asked for [s].
+    """
     return [_walked(summary, planned), _formed(summary), _fast(summary)]
 
 
 def number(value: float | None, digits: int = 2, unit: str = "") -> str:
-    """Fixed-point text with unit, a dash if undefined."""
+    """Fixed-point text with unit; a dash if undefined."""
     if value is None or not math.isfinite(value):
         return DASH
     return f"{value:.{digits}f}{_SPACE * bool(unit)}{unit}"
 
 
 def rows(s: WalkFeatures) -> list[tuple[str, str, str]]:
-    """Rows of the summary table: name, value with unit, what it means."""
+    """Rows of the table of figures: name, value with unit, and meaning."""
     phases = [f"φ1{k}{_SPACE}{phase_text(p)}" for k, p in enumerate(s.phi_final, start=2)]
     target = metrics.gait_name(len(s.phi_final) + 1).capitalize()
     strict = f"within {metrics.STRICT_TOLERANCE} rad to the end"
@@ -122,7 +134,7 @@ def rows(s: WalkFeatures) -> list[tuple[str, str, str]]:
 
 
 def phase_text(phase: float | None) -> str:
-    """Phase as a multiple of pi, such as 0.98 π."""
+    """Phase [rad] as a multiple of pi, e.g. 0.98 π."""
     return DASH if phase is None else f"{phase / math.pi:.2f}{_SPACE}π"
 
 
@@ -131,7 +143,7 @@ def _settings(settings: Any) -> list[str]:
 
 
 def _plain(value: Any) -> str:
-    """A value of an experiment in words: steps, conditions and grounds, too."""
+    """A value of an experiment in words, e.g. a schedule, conditions or a ground."""
     if isinstance(value, Conditions):
         default = Conditions()
         changed = {f.name: getattr(value, f.name) for f in fields(value)}

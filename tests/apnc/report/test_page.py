@@ -203,7 +203,7 @@ def test_the_end_of_a_diverged_motion_is_not_drawn_and_that_is_said() -> None:
     shown = drawable(record)
     assert len(shown) == len(record) - 20
     assert all(len(v) == len(shown) for v in shown.signals.values())
-    assert "From 4.67 s on the motion has no scale" in render(record, walk_features(record))
+    assert "From 4.67 s on the motion is not drawn" in render(record, walk_features(record))
     # A sound run keeps all, whatever the numbers are.
     assert len(drawable(replace(record, end=End.complete))) == len(record)
     slow = synthetic_record(2.0)

@@ -66,5 +66,5 @@ def test_the_report_of_an_hour_is_small_and_says_that_it_is_thinned() -> None:
     )
     text = render(hour, walk_features(hour))
     assert len(text) < 30e6
-    assert "A long run" in text
+    assert "This run is long." in text
     assert '"opensAt":3589.' in text
