@@ -6,10 +6,12 @@ That the generator gives the published answers is tested beside the C sources.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from plants import Kind, in_both
 from scipy.stats import kstest
 
 from apnc_plant.chance import LARGEST_SEED, checked_seed, side_offset
@@ -86,3 +88,23 @@ def test_any_whole_number_is_a_seed() -> None:
     last = Plant(ROBOT, LARGEST_SEED)
     last.advance(np.zeros(4), np.zeros(4), 1 / 60)
     assert (last.grf() != Plant(ROBOT, 0).grf()).any()
+
+
+@in_both
+def test_the_centre_of_mass_is_off_to_either_side_by_the_stated_amount(kind: Kind) -> None:
+    # Moments about the x axis: the trunk's offset is all that makes left and right differ.
+    quiet = replace(ROBOT, trunk=replace(ROBOT.trunk, com_side_offset=0.004))
+    offsets = []
+    for seed in range(8):
+        plant = kind(quiet, seed)
+        for _ in range(90):
+            plant.advance(np.zeros(4), np.zeros(4), 1 / 60)
+        sample = plant.sample()
+        force, foot = sample["foot_force"], sample["foot_position"] - sample["position"]
+        ground = foot - [0.0, 0.0, ROBOT.contact.foot_radius]
+        moment = (ground[:, 1] * force[:, 2] - ground[:, 2] * force[:, 1]).sum()
+        offsets.append(moment / (ROBOT.trunk.mass * 9.81))
+    sizes = np.abs(offsets) / 0.004
+    assert 0.7 < sizes.min() < sizes.max() < 1.3
+    assert 2 <= np.sum(np.array(offsets) > 0.0) <= 6
+    assert np.ptp(sizes) > 0.1

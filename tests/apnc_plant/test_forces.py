@@ -1,7 +1,6 @@
-"""The forces in C against closed form: contact law, leverage of the feet, grounds."""
+"""The forces for other engines against closed form: leverage of the feet, power, grounds."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,70 +10,11 @@ from apnc_plant.coordinates import BASE
 from apnc_plant.forces import RobotForces
 from apnc_plant.ground import Ground, Kerb, Obstacles, Plane, Waves
 from apnc_plant.ground.obstacles import TILE
-from apnc_plant.library import library
-from apnc_plant.numbers import contact_numbers
-from apnc_plant.robot import Contact, load_robot
+from apnc_plant.robot import load_robot
 from exudyn_models.plant import Plant
 
 ROBOT = load_robot("lilibot")
 UP = (0.0, 0.0, 1.0)
-CONTACT = Contact(
-    foot_radius=0.012,
-    stiffness=20000.0,
-    damping=400.0,
-    damping_depth=2e-4,
-    friction=0.5,
-    friction_speed=0.03,
-)
-
-
-def contact_force(
-    normal: Sequence[float], depth: float, velocity: Sequence[float], stopping: float = 0.0
-) -> tuple[np.ndarray, float]:
-    """Force on a foot and its normal part; stopping: step over apparent mass."""
-    ffi, lib = library()
-    force = np.zeros(3)
-    press = lib.plant_contact_force(
-        ffi.new("plant_contact *", contact_numbers(CONTACT)),
-        list(normal),
-        depth,
-        list(velocity),
-        stopping,
-        ffi.from_buffer("double[]", force),
-    )
-    return force, press
-
-
-@pytest.mark.parametrize(
-    ("depth", "approach", "expected"),
-    [
-        (1e-3, 0.0, 20.0),
-        (1e-3, 0.1, 60.0),
-        (1e-4, 0.1, 2.0 + 0.5 * 40.0),
-        (1e-9, 1.0, 0.0),
-        (1e-3, -0.04, 4.0),
-        (1e-3, -0.06, 0.0),
-    ],
-)
-def test_normal_force(depth: float, approach: float, expected: float) -> None:
-    force, press = contact_force(UP, depth, (0.0, 0.0, -approach))
-    assert press == pytest.approx(expected, abs=3e-3)
-    np.testing.assert_allclose(force, [0.0, 0.0, press], atol=1e-12)
-
-
-@pytest.mark.parametrize(("speed", "share"), [(0.0, 0.0), (0.015, 0.5), (0.03, 1.0), (3.0, 1.0)])
-def test_friction_is_regularised_coulomb_against_the_motion(speed: float, share: float) -> None:
-    velocity = (0.6 * speed, -0.8 * speed, 0.0)
-    force, press = contact_force(UP, 1e-3, velocity)
-    np.testing.assert_allclose(force[:2], 0.5 * press * share * np.array([-0.6, 0.8]), atol=1e-12)
-
-
-@pytest.mark.parametrize(("depth", "speed"), [(1e-3, 0.03), (3e-3, 0.03), (3e-3, 0.06)])
-def test_friction_does_not_turn_a_foot_round_within_a_step(depth: float, speed: float) -> None:
-    step, mass = 1e-3, 0.5
-    force, press = contact_force(UP, depth, (speed, 0.0, 0.0), step / mass)
-    sticking = 0.5 * press * step / mass  # the speed that friction takes away in a step
-    assert force[0] == pytest.approx(-mass / step * min(sticking, speed), rel=1e-12)
 
 
 def test_the_apparent_mass_of_a_foot_on_a_heavy_trunk_is_its_rotors_over_their_levers() -> None:

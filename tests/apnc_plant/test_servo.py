@@ -1,5 +1,6 @@
-"""The servo's torque limits, in the formula and in the plants."""
+"""The servo, in the formula and in the plants: torque limits, latency, slew rate and work."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,8 @@ from apnc_plant.numbers import servo_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, Servo, load_robot
 
+TICK = 1 / 60
+ROBOT = load_robot("lilibot")
 SERVO = Servo(
     stiffness=20.0, damping=0.5, stall_torque=4.0, no_load_speed=5.0, reflected_inertia=1.0
 )
@@ -94,3 +97,51 @@ def test_positive_targets_swing_the_leg_forward_and_lift_the_foot(kind: Kind) ->
         plant.advance(np.zeros(4), np.full(4, 0.2), 1 / 60)
     knee = plant.sample()["foot_position"] - plant.sample()["position"]
     assert (knee[:, 2] > before[:, 2] + 0.01).all()
+
+
+@in_both
+@pytest.mark.parametrize("latency", [0.004, TICK, 0.04])
+def test_a_command_takes_effect_after_the_latency(kind: Kind, latency: float) -> None:
+    late = replace(ROBOT, servo=replace(ROBOT.servo, latency=latency))
+    options = PlantOptions(gravity=0.0, clearance=0.5, step=1e-4)
+    delayed, prompt = kind(late, options=options), kind(ROBOT, options=options)
+    angles = []
+    for plant, length in ((delayed, 0.1), (prompt, 0.1 - latency)):
+        ticks = 1 if plant is prompt else 4
+        for _ in range(ticks):
+            plant.advance(np.zeros(4), np.full(4, 0.3), length / ticks)
+        angles.append(plant.sample()["joint_angle"])
+    assert angles[1][0, 2] > 0.01
+    np.testing.assert_allclose(angles[0], angles[1], atol=1e-3)
+
+
+@in_both
+def test_a_slew_rate_limits_how_fast_a_command_moves(kind: Kind) -> None:
+    slow = replace(ROBOT, servo=replace(ROBOT.servo, slew_rate=1.0))
+    limited, ramped = kind(slow), kind(ROBOT)
+    step = np.full(4, 0.2)
+    for tick in range(1, 25):
+        limited.advance(step, np.zeros(4), TICK)
+        ramped.advance(np.minimum(step, 1.0 * tick * TICK), np.zeros(4), TICK)
+        np.testing.assert_allclose(
+            limited.sample()["joint_angle"], ramped.sample()["joint_angle"], atol=1e-12
+        )
+    assert limited.sample()["joint_angle"][:, 1].min() > 0.1
+
+
+@in_both
+def test_recorded_work_is_that_of_every_step(kind: Kind) -> None:
+    # Torque times speed once per tick misses a tenth of it: torques peak between two ticks.
+    plant = kind(ROBOT)
+    summed = 0.0
+    for tick in range(120):
+        side = np.array([1.0, -1.0, -1.0, 1.0])
+        hip = 0.13 * math.sin(0.12 * tick) * side
+        knee = 0.08 * math.cos(0.12 * tick) * side
+        for _ in range(128):
+            plant.advance(hip, knee, TICK / 128)
+            sample = plant.sample()
+            power = np.abs(sample["joint_torque"] * sample["joint_speed"]).sum()
+            summed += power * TICK / 128
+    assert summed > 1.0
+    assert plant.sample()["joint_work"].sum() == pytest.approx(summed, rel=0.01)

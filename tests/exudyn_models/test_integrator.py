@@ -7,8 +7,6 @@ v' = v + h/2 a(q, v'_before), q += h v', v = v' + h/2 a(q, v').
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -199,16 +197,3 @@ def test_momentum_changes_by_the_forces_that_act() -> None:
         impulse += 0.5 * STEP * (before + (before := acting()))
         momentum = (plant._engine.mass_matrix() @ plant._v)[:3]
         np.testing.assert_allclose(momentum, impulse, atol=1e-4)
-
-
-def test_the_warning_stays_off_stdout_and_what_exudyn_says_else_does_not() -> None:
-    code = (
-        "from exudyn_models.plant import Plant\n"
-        "from exudyn_models.engine import exu\n"
-        "from apnc_plant.robot import load_robot\n"
-        "import numpy as np\n"
-        "Plant(load_robot('lilibot')).advance(np.zeros(4), np.zeros(4), 0.1)\n"
-        "exu().Print('heard')\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert (done.stdout, done.stderr) == ("heard\n", "")

@@ -1,8 +1,5 @@
 """The plant in Exudyn against the engine itself, and what its contact does while it walks."""
 
-import contextlib
-import io
-
 import numpy as np
 import pytest
 from exudyn_feet import MarkedPlant
@@ -84,10 +81,3 @@ def test_the_engine_has_the_time_of_the_plant() -> None:
     for duration in (TICK, 0.01, 1e-4, 0.0333, 1e-6):
         plant.advance(np.zeros(4), np.zeros(4), duration)
     assert plant._engine.mbs.systemData.GetTime() == pytest.approx(plant.time, abs=1e-12)
-
-
-def test_stdout_stays_quiet(capfd: pytest.CaptureFixture[str]) -> None:
-    with contextlib.redirect_stdout(io.StringIO()) as printed:
-        stand(ROBOT, 0.1)
-    assert printed.getvalue() == ""
-    assert capfd.readouterr() == ("", "")

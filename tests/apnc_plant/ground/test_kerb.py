@@ -1,13 +1,16 @@
-"""Contacts with a kerb against plane geometry."""
+"""Contacts with a kerb against plane geometry, and robots on it."""
 
 import math
 
 import numpy as np
 import pytest
+from plants import Kind, in_both, settled
 
 from apnc_plant.ground import Kerb
+from apnc_plant.robot import load_robot
 
 H, R = 0.006, 0.012
+ROBOT = load_robot("lilibot")
 STEP = Kerb(at=0.5, height=H)
 SILL = Kerb(at=0.5, height=H, length=0.1)
 
@@ -78,3 +81,33 @@ def test_lines_over_a_sill_have_square_corners() -> None:
     # Flat pieces and faces only: no line cuts a corner.
     step = np.diff(line, axis=0)
     assert (np.minimum(np.abs(step[:, 0]), np.abs(step[:, 2])) == 0.0).all()
+
+
+@in_both
+def test_front_feet_stand_on_a_kerb_and_hind_feet_below_it(kind: Kind) -> None:
+    plant = settled(kind, Kerb(at=0.0, height=0.006))
+    sample = plant.sample()
+    foot, force = sample["foot_position"], sample["foot_force"]
+    assert force[:, 2].sum() == pytest.approx(ROBOT.weight, rel=1e-3)
+    assert force[:, 2].min() > 1.0
+    step = np.array([0.006, 0.0, 0.006, 0.0])
+    sunk = step + ROBOT.contact.foot_radius - foot[:, 2]
+    np.testing.assert_allclose(sunk, force[:, 2] / ROBOT.contact.stiffness, rtol=0.01)
+    assert not plant.fell
+
+
+@in_both
+def test_a_walk_goes_over_a_kerb(kind: Kind) -> None:
+    plant = kind(ROBOT, ground=Kerb(at=0.14, height=0.004))
+    diagonal = np.array([1.0, -1.0, -1.0, 1.0])
+    for tick in range(480):
+        phase = 0.12 * tick
+        hip = 0.13 * np.sin(phase) * diagonal - 0.111
+        knee = 0.12 * np.cos(phase) * diagonal - 0.039
+        plant.advance(hip, knee, 1 / 60)
+    for _ in range(60):
+        plant.advance(np.full(4, -0.111), np.full(4, -0.039), 1 / 60)
+    foot = plant.sample()["foot_position"]
+    assert (foot[:, 0] > 0.16).all()
+    assert (foot[:, 2] > 0.004 + ROBOT.contact.foot_radius - 0.002).all()
+    assert not plant.fell

@@ -1,13 +1,16 @@
-"""Contacts with waves against closed form on crests and in troughs, and against a search."""
+"""Contacts with waves against closed form and against a search, and robots on them."""
 
 import math
 
 import numpy as np
 import pytest
+from plants import Kind, in_both, settled
 
 from apnc_plant.ground import Waves
+from apnc_plant.robot import load_robot
 
 R, A, L = 0.012, 0.006, 0.2
+ROBOT = load_robot("lilibot")
 WAVES = Waves(amplitude=A, wavelength=L)
 
 
@@ -53,3 +56,16 @@ def test_a_ball_that_would_touch_at_two_places_is_refused() -> None:
         tight.contacts((0.0, 0.0, 0.0), R)
     curvature = 0.005 / 2 * (2 * math.pi / 0.04) ** 2
     assert len(tight.contacts((0.0, 0.0, 0.0), 0.49 / curvature)) == 1
+
+
+@in_both
+def test_on_waves_feet_stand_at_the_height_of_the_waves(kind: Kind) -> None:
+    waves = Waves(amplitude=0.005, wavelength=0.3)
+    plant = settled(kind, waves)
+    sample = plant.sample()
+    assert sample["foot_force"][:, 2].sum() == pytest.approx(ROBOT.weight, rel=5e-3)
+    for (x, y, z), force in zip(sample["foot_position"], sample["foot_force"], strict=True):
+        ((*normal, depth),) = waves.contacts((x, y, z), ROBOT.contact.foot_radius)
+        pressed = ROBOT.contact.stiffness * depth
+        assert force @ normal == pytest.approx(pressed, rel=0.05)
+    assert not plant.fell

@@ -1,9 +1,11 @@
-"""The load sensor against closed form."""
+"""The load sensor against closed form, alone and in the plants."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from plants import Kind, in_both
 
 from apnc_plant.conditions import Conditions
 from apnc_plant.robot import Sensor, load_robot
@@ -127,3 +129,21 @@ def test_noise_never_makes_a_load_negative() -> None:
     noisy = readings(Sensor(0.0, 0.0, 0.02), 1 / 60, [0.0] * 1000)
     assert noisy.min() == 0.0
     assert noisy.max() > 0.0
+
+
+@in_both
+def test_the_sensor_can_show_the_norm_of_the_force(kind: Kind) -> None:
+    robot = load_robot("lilibot")
+    quiet = replace(robot, sensor=replace(robot.sensor, noise=0.0))
+    prompt = replace(quiet.sensor, delay=0.0, time_constant=0.0)
+    readings = {}
+    for component in ("normal", "norm"):
+        plant = kind(replace(quiet, sensor=replace(prompt, component=component)))
+        for tick in range(90):
+            swing = 0.13 * math.sin(0.12 * tick) * np.array([1.0, -1.0, -1.0, 1.0])
+            plant.advance(swing, 0.08 * np.cos(swing), 1 / 60)
+        readings[component] = plant.grf()
+        force = plant.sample()["foot_force"]
+    np.testing.assert_allclose(readings["norm"], np.linalg.norm(force, axis=1), rtol=1e-12)
+    np.testing.assert_allclose(readings["normal"], force[:, 2], rtol=1e-12)
+    assert (readings["norm"] - readings["normal"]).max() > 0.01

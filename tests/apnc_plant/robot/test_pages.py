@@ -1,6 +1,7 @@
-"""The page on robot files lists every key, its unit and its default."""
+"""The pages on robots list every key of a robot file, and the values of the shipped files."""
 
 import re
+import tomllib
 from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
@@ -8,7 +9,7 @@ from typing import Any
 import pytest
 from pydantic import TypeAdapter
 
-from apnc_plant.robot import Body, Contact, Leg, Sensor, Servo, Trunk
+from apnc_plant.robot import ROBOTS, Body, Contact, Leg, Sensor, Servo, Trunk
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "robots" / "own.md"
 PARTS = {
@@ -56,3 +57,23 @@ def test_the_page_lists_no_key_that_is_gone() -> None:
     known |= {f"leg.{link}.{name}" for link in ("femur", "tibia") for name in units(Body)}
     known |= {"name", "legs[k].name", "legs[k].mount", "controller.NAME"}
     assert {key for key in listed() if "." in key or key == "name"} <= known
+
+
+def value_at(table: Any, key: str) -> Any:
+    """Value at a key such as ``legs[1].mount``; legs are counted from 1."""
+    for name, index in re.findall(r"(\w+)(?:\[(\d+)\])?\.?", key):
+        table = table[name][int(index) - 1] if index else table[name]
+    return table
+
+
+@pytest.mark.parametrize("robot", ["lilibot", "hexapod", "octopod"])
+def test_values_on_the_page_are_those_of_the_file(robot: str) -> None:
+    table = tomllib.loads((ROBOTS / f"{robot}.toml").read_text("utf-8"))
+    page = (PAGE.parent / f"{robot}.md").read_text("utf-8")
+    rows = re.findall(r"^\| (`[\w.\[\]]+`(?:, `[^|]+)?) \| ([^|]*)\|", page, re.MULTILINE)
+    assert len(rows) > 8
+    for keys, value in rows:
+        for key in re.findall(r"`([^`]+)`", keys):
+            found = value_at(table, key)
+            if value.strip():
+                assert found == tomllib.loads(f"value = {value}")["value"], key

@@ -1,6 +1,7 @@
-"""Friction on slopes and obstacles, work and the offset of the centre of mass, in every plant."""
+"""Contact of the feet, in the formula and in every plant: normal force, friction, slopes."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +9,9 @@ import pytest
 from plants import Kind, in_both
 
 from apnc_plant.ground import Obstacles
-from apnc_plant.robot import load_robot
+from apnc_plant.library import library
+from apnc_plant.numbers import contact_numbers
+from apnc_plant.robot import Contact, load_robot
 
 TICK = 1 / 60
 GRAVITY = 9.81
@@ -89,39 +92,60 @@ def test_the_robot_falls_as_gravity_along_a_frictionless_slope(kind: Kind) -> No
     assert speed == pytest.approx(GRAVITY * math.sin(0.1) * 1.0, rel=0.02)
 
 
-@in_both
-def test_recorded_work_is_that_of_every_step(kind: Kind) -> None:
-    # Torque times speed once per tick misses a tenth of it: torques peak between two ticks.
-    plant = kind(ROBOT)
-    summed = 0.0
-    for tick in range(120):
-        side = np.array([1.0, -1.0, -1.0, 1.0])
-        hip = 0.13 * math.sin(0.12 * tick) * side
-        knee = 0.08 * math.cos(0.12 * tick) * side
-        for _ in range(128):
-            plant.advance(hip, knee, TICK / 128)
-            sample = plant.sample()
-            power = np.abs(sample["joint_torque"] * sample["joint_speed"]).sum()
-            summed += power * TICK / 128
-    assert summed > 1.0
-    assert plant.sample()["joint_work"].sum() == pytest.approx(summed, rel=0.01)
+CONTACT = Contact(
+    foot_radius=0.012,
+    stiffness=20000.0,
+    damping=400.0,
+    damping_depth=2e-4,
+    friction=0.5,
+    friction_speed=0.03,
+)
 
 
-@in_both
-def test_the_centre_of_mass_is_off_to_either_side_by_the_stated_amount(kind: Kind) -> None:
-    # Moments about the x axis: the trunk's offset is all that makes left and right differ.
-    quiet = replace(ROBOT, trunk=replace(ROBOT.trunk, com_side_offset=0.004))
-    offsets = []
-    for seed in range(8):
-        plant = kind(quiet, seed)
-        for _ in range(90):
-            plant.advance(ZERO, ZERO, TICK)
-        sample = plant.sample()
-        force, foot = sample["foot_force"], sample["foot_position"] - sample["position"]
-        ground = foot - [0.0, 0.0, ROBOT.contact.foot_radius]
-        moment = (ground[:, 1] * force[:, 2] - ground[:, 2] * force[:, 1]).sum()
-        offsets.append(moment / (ROBOT.trunk.mass * GRAVITY))
-    sizes = np.abs(offsets) / 0.004
-    assert 0.7 < sizes.min() < sizes.max() < 1.3
-    assert 2 <= np.sum(np.array(offsets) > 0.0) <= 6
-    assert np.ptp(sizes) > 0.1
+def contact_force(
+    normal: Sequence[float], depth: float, velocity: Sequence[float], stopping: float = 0.0
+) -> tuple[np.ndarray, float]:
+    """Force on a foot and its normal part; stopping: step over apparent mass."""
+    ffi, lib = library()
+    force = np.zeros(3)
+    press = lib.plant_contact_force(
+        ffi.new("plant_contact *", contact_numbers(CONTACT)),
+        list(normal),
+        depth,
+        list(velocity),
+        stopping,
+        ffi.from_buffer("double[]", force),
+    )
+    return force, press
+
+
+@pytest.mark.parametrize(
+    ("depth", "approach", "expected"),
+    [
+        (1e-3, 0.0, 20.0),
+        (1e-3, 0.1, 60.0),
+        (1e-4, 0.1, 2.0 + 0.5 * 40.0),
+        (1e-9, 1.0, 0.0),
+        (1e-3, -0.04, 4.0),
+        (1e-3, -0.06, 0.0),
+    ],
+)
+def test_normal_force(depth: float, approach: float, expected: float) -> None:
+    force, press = contact_force((0.0, 0.0, 1.0), depth, (0.0, 0.0, -approach))
+    assert press == pytest.approx(expected, abs=3e-3)
+    np.testing.assert_allclose(force, [0.0, 0.0, press], atol=1e-12)
+
+
+@pytest.mark.parametrize(("speed", "share"), [(0.0, 0.0), (0.015, 0.5), (0.03, 1.0), (3.0, 1.0)])
+def test_friction_is_regularised_coulomb_against_the_motion(speed: float, share: float) -> None:
+    velocity = (0.6 * speed, -0.8 * speed, 0.0)
+    force, press = contact_force((0.0, 0.0, 1.0), 1e-3, velocity)
+    np.testing.assert_allclose(force[:2], 0.5 * press * share * np.array([-0.6, 0.8]), atol=1e-12)
+
+
+@pytest.mark.parametrize(("depth", "speed"), [(1e-3, 0.03), (3e-3, 0.03), (3e-3, 0.06)])
+def test_friction_does_not_turn_a_foot_round_within_a_step(depth: float, speed: float) -> None:
+    step, mass = 1e-3, 0.5
+    force, press = contact_force((0.0, 0.0, 1.0), depth, (speed, 0.0, 0.0), step / mass)
+    sticking = 0.5 * press * step / mass  # the speed that friction takes away in a step
+    assert force[0] == pytest.approx(-mass / step * min(sticking, speed), rel=1e-12)
