@@ -1,0 +1,150 @@
+"""Robots and controllers as the page reads them."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+import cffi
+
+from apnc import metrics
+from apnc.controllers import CONTROLLERS
+from apnc.loop.experiment import Experiment
+from apnc.metrics.strides import STANCE_SHARE
+from apnc.report import theme
+from apnc_core.schema import Causality, Type
+from apnc_core.variable_numbers import VARIABLE_NUMBERS
+from apnc_core.variables import TABLE
+from apnc_plant.ground.obstacles import CELLS, SINK_IN, STEP_HEIGHT, TILE, Obstacles
+from apnc_plant.library import declarations, library
+from apnc_plant.numbers import robot_numbers
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import RobotDescription
+from apnc_plant.robot.model import PAYLOAD_SIZE
+from apnc_plant.signals import PLANT_SIGNALS
+from build_fmu.library import headers
+
+HEADER: Final = Path(__file__).parent / "play.h"
+
+SHOWN: Final = {"apnc": "APNC", "apc": "APNC without a stored gait"} | {
+    label: CONTROLLERS[label].name.replace(" (best)", "")
+    for label in ("tegotae_best", "phase_reset_best")
+}
+"""Labels of the controllers to choose from, and their names on the page."""
+
+MI: Final = {"lilibot": 0.18, "hexapod": 0.15}
+"""Stepping rate at which each robot starts: its feet lift, and it walks straight ahead."""
+
+
+def struct_of(robot: RobotDescription) -> bytes:
+    """A robot as ``play_numbers`` of ``play.h``, without its pointer."""
+    ffi, n_legs = _ffi(len(robot.legs)), len(robot.legs)
+    own, options, field = ffi.new("play_numbers *"), PlantOptions(), Obstacles()
+    numbers = robot_numbers(robot)
+    shared = ffi.new("plant_robot *")
+    _copy(ffi, shared, numbers.at)
+    own.robot = shared[0]
+    own.robot.leg = ffi.NULL
+    for k in range(n_legs):
+        _copy(ffi, ffi.addressof(own.leg, k), numbers.at.leg + k)
+    trunk = robot.trunk
+    own.trunk_mass, own.com_side_offset = trunk.mass, trunk.com_side_offset
+    own.trunk_size, own.trunk_com, own.payload_size = trunk.size, trunk.com, PAYLOAD_SIZE
+    own.field = {
+        "balls": round(field.density * TILE**2),
+        "cells": CELLS,
+        "tile": TILE,
+        "height": STEP_HEIGHT,
+        "smallest": field.diameters[0],
+        "largest": field.diameters[1],
+        "foot_radius": robot.contact.foot_radius,
+        "sink_in": SINK_IN,
+    }
+    own.clearance, own.step, own.Ts = options.clearance, options.step, Experiment(robot=robot).Ts
+    own.start = [0.0, options.start_hip, options.start_knee]
+    return bytes(ffi.buffer(own))
+
+
+def size_of(n_legs: int) -> int:
+    """Bytes of ``play_numbers`` for so many legs."""
+    return int(_ffi(n_legs).sizeof("play_numbers"))
+
+
+def _ffi(n_legs: int) -> cffi.FFI:
+    ffi = cffi.FFI()
+    ffi.cdef(declarations(headers()[0]))
+    ffi.cdef(declarations(HEADER.read_text()).replace("APNC_LEGS", str(n_legs)))
+    return ffi
+
+
+def _copy(ffi: Any, to: Any, source: Any) -> None:
+    """Copy a struct of another ``ffi`` by its bytes."""
+    other, size = library()[0], ffi.sizeof(ffi.typeof(to).item)
+    ffi.buffer(to, size)[:] = other.buffer(source, size)[:]
+
+
+def robot_data(name: str) -> dict[str, Any]:
+    """All that the page knows of a robot: its numbers, what it looks like, its controllers."""
+    robot = Experiment(robot=name).description
+    legs = tuple(leg.name for leg in robot.legs)
+    n = len(legs)
+    return {
+        "name": name,
+        "legs": legs,
+        "colours": list(theme.leg_colours(legs).values()),
+        "numbers": base64.b64encode(struct_of(robot)).decode(),
+        "trunk": {"size": robot.trunk.size, "center": robot.trunk.center},
+        "payload": PAYLOAD_SIZE,
+        "footRadius": robot.contact.foot_radius,
+        "weight": robot.weight,
+        "chains": [
+            {
+                "mount": leg.mount,
+                "hip": leg.outward(leg.hip_offset),
+                "femur": leg.femur_length,
+                "tibia": leg.tibia_length,
+                "femurAngle": leg.femur_angle,
+                "tibiaAngle": leg.tibia_angle,
+            }
+            for leg in robot.legs
+        ],
+        "gaits": metrics.GAITS.get(n, {}),
+        "gait": metrics.gait_name(n),
+        "mi": MI[name],
+        "parameters": {
+            label: _floats(Experiment(robot=name, controller=label).starts()) for label in SHOWN
+        },
+        "columns": [column for signal in PLANT_SIGNALS for column in signal.columns(legs)],
+    }
+
+
+def _floats(parameters: Mapping[str, Any]) -> dict[str, Any]:
+    return {
+        name: [float(x) for x in value] if isinstance(value, tuple | list) else float(value)
+        for name, value in parameters.items()
+    }
+
+
+def shared_data() -> dict[str, Any]:
+    """What the page knows beside robots: variables of the controller, thresholds, names."""
+    return {
+        "controllers": SHOWN,
+        # where a variable stands in apnc_variables, the type of its numbers and for what it has one
+        "variables": {
+            v.name: {
+                "index": index,
+                "real": v.type is Type.real,
+                "per": v.shape.name,
+                "output": v.causality in (Causality.output, Causality.local),
+            }
+            for index, v in enumerate(sorted(TABLE, key=lambda v: VARIABLE_NUMBERS[v.name]))
+        },
+        "tolerance": metrics.STRICT_TOLERANCE,
+        "stanceShare": STANCE_SHARE,
+        "tile": TILE,
+        "stepHeight": STEP_HEIGHT,
+        "balls": round(Obstacles().density * TILE**2),
+        "Ts": Experiment().Ts,
+    }
