@@ -43,8 +43,14 @@ def _weights(length: int) -> Array:
     Inside the run, the filter takes the middle point of each parabola. At the ends it takes the
     first half of the first parabola and the last half of the last. The weights are computed once
     for each length, since a fit in every call takes longer than the filter.
-    """
-    from scipy.signal import savgol_filter  # noqa: PLC0415  # takes long to import
 
-    weights: Array = savgol_filter(np.eye(length), length, ORDER, axis=0)
+    The steps are those of ``scipy.signal.savgol_filter`` with the same rounding, so that figures
+    keep their bits. SciPy's module takes longer to import than a walk takes.
+    """
+    place, half = np.arange(length, dtype=np.float64), length // 2
+    weights: Array = np.polyval(np.polyfit(place, np.eye(length), ORDER), place[:, np.newaxis])
+    powers = np.vander(half - place, ORDER + 1, increasing=True).T
+    middle = np.linalg.lstsq(powers, np.eye(ORDER + 1)[0])[0]
+    weights[half, half:] = middle[half:]
+    weights[half, :half] = middle[:half:-1]
     return weights

@@ -8,6 +8,7 @@ from records import RATE
 from scipy.signal import savgol_filter
 
 from apnc import metrics
+from apnc.metrics.smoothing import ORDER, WINDOW, _weights
 
 
 def test_smoothing_keeps_parabolas() -> None:
@@ -33,6 +34,13 @@ def test_smoothing_is_the_filter_of_the_authors(samples: int, window: int) -> No
     expected = savgol_filter(values, window, 2, axis=0)
     scale = np.abs(expected).max()
     np.testing.assert_allclose(metrics.smooth(values), expected, rtol=0.0, atol=1e-12 * scale)
+
+
+def test_weights_are_those_of_scipy_in_every_window() -> None:
+    """Recorded figures keep their bits only if the weights are rounded as SciPy rounds them."""
+    for length in range(3, WINDOW + 1, 2):
+        expected = savgol_filter(np.eye(length), length, ORDER, axis=0)
+        np.testing.assert_allclose(_weights(length), expected, rtol=0.0, atol=1e-15)
 
 
 def test_a_value_that_is_not_finite_spoils_no_more_than_its_window() -> None:
