@@ -44,11 +44,11 @@ def export_robot(
 
         text, suffix = robot_urdf(own, root="trunk" if root is None else root), "urdf"
     else:
-        from apnc.loop.engines import needs
+        from apnc.extras import missing
         from mujoco_models.tree import export_mjcf
 
         if importlib.util.find_spec("mujoco") is None:
-            raise ValueError(needs("mujoco"))
+            raise ValueError(missing("mujoco", "mujoco"))
         text, suffix = export_mjcf(own, servo="position" if servo is None else servo), "xml"
     path = _file("./" if output is None else output, f"{plain_name(own.name)}.{suffix}")
     write_atomically(writable(path, file=True), text.encode())

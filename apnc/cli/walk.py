@@ -30,6 +30,7 @@ from apnc.cli.console import (
 )
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.controllers import CONTROLLERS
+from apnc.extras import install_command
 from apnc.loop.schedule import parse_schedule
 from apnc.report import RUN_FILES
 from apnc_core.enumerations import Method
@@ -128,7 +129,7 @@ def walk(
 def _log_path(mcap: Path) -> Path:
     """The path of an MCAP log, before anything is computed: the extra is there, and the folder."""
     if importlib.util.find_spec("mcap_ros2") is None:
-        raise ValueError("--mcap needs the extra 'mcap': pip install 'apnc[mcap]'")
+        raise ValueError(f"--mcap needs the extra 'mcap': {install_command('mcap')}")
     return writable(mcap, file=True)
 
 

@@ -6,6 +6,8 @@ import importlib
 import importlib.util
 from typing import TYPE_CHECKING, Final
 
+from apnc.extras import missing
+
 if TYPE_CHECKING:
     from apnc_plant.compiled import Plant
     from apnc_plant.legged import LeggedPlant
@@ -45,11 +47,6 @@ def plant_in(engine: str) -> type[LeggedPlant | Plant]:
         ValueError: the engine's package is not installed.
     """
     if engine in EXTRAS and importlib.util.find_spec(engine) is None:
-        raise ValueError(needs(engine))
+        raise ValueError(missing(engine, engine))
     plant: type[LeggedPlant | Plant] = importlib.import_module(ENGINES[engine]).Plant
     return plant
-
-
-def needs(package: str) -> str:
-    """What to say where a package is missing that an extra of its name brings."""
-    return f"'{package}' is not installed; pip install \"apnc[{package}]\" brings it"

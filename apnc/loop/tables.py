@@ -7,6 +7,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Final
 
 from apnc import metrics
+from apnc.extras import missing
 from apnc.loop.columns import TIME, columns
 from apnc.loop.record import Record
 from apnc.loop.schedule import schedule_text
@@ -106,4 +107,4 @@ def _attributes(unit: str, description: str, frame: str = "", sign: str = "") ->
 
 def _need(package: str) -> None:
     if find_spec(package) is None:
-        raise ValueError(f"'{package}' is not installed: pip install \"apnc[study]\"")
+        raise ValueError(missing(package, "study"))

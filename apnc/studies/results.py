@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from apnc import metrics
 from apnc.controllers import CONTROLLERS, named_controller
+from apnc.extras import missing
 from apnc.studies.statistics import median, rate
 
 if TYPE_CHECKING:
@@ -62,8 +63,7 @@ class StudyResults(list[Result]):
         try:
             import pandas as pd  # noqa: PLC0415  # an extra
         except ImportError:
-            needs = "to_pandas() needs pandas, of the extra 'study': pip install 'apnc[study]'"
-            raise ImportError(needs) from None
+            raise ImportError(missing("pandas", "study")) from None
         return pd.DataFrame.from_records(list(self), columns=columns_of(self))
 
     def _repr_html_(self) -> str:

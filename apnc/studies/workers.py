@@ -11,6 +11,7 @@ from functools import partial
 from itertools import islice, takewhile
 from typing import Any, Final, Protocol
 
+from apnc.extras import install_command
 from apnc.loop.batch import Lanes, lanes_of
 from apnc.loop.engines import COMPILED
 from apnc.loop.many import Stop
@@ -57,9 +58,8 @@ def _processes(workers: int, engines: Sequence[str]) -> Any:
     try:
         from loky import get_reusable_executor  # noqa: PLC0415  # an extra
     except ImportError:
-        extra = "pip install 'apnc[study]', or --workers 1"
         needs = f"workers = {workers} with engine {engines[0]} needs the extra 'study'"
-        raise ValueError(f"{needs}: {extra}") from None
+        raise ValueError(f"{needs}: {install_command('study')}, or --workers 1") from None
     executor = get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
     with _interrupts_ignored():
         executor.submit(int)  # starts the processes, which ignore the signals from then on
@@ -70,8 +70,8 @@ def _client(address: str) -> Any:
     try:
         from dask.distributed import Client  # noqa: PLC0415  # an extra
     except ImportError:
-        extra = "pip install 'apnc[cluster]'"
-        raise ValueError(f"a scheduler needs the extra 'cluster': {extra}") from None
+        needs = "a scheduler needs the extra 'cluster'"
+        raise ValueError(f"{needs}: {install_command('cluster')}") from None
     try:
         return Client(address, timeout="10s")
     except (OSError, ValueError) as error:

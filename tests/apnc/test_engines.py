@@ -13,6 +13,7 @@ from apnc import Experiment, simulate, walk_features
 from apnc.cli.app import app
 from apnc.cli.main import main
 from apnc.cli.walk import experiment_of
+from apnc.extras import missing
 from apnc.loop.provenance import what_was_run
 
 needs_mujoco = pytest.mark.skipif(
@@ -45,7 +46,7 @@ def test_a_missing_package_is_one_line(
         with pytest.raises(SystemExit) as end:
             main(words)
         assert end.value.code == 2
-        assert "'mujoco' is not installed; pip install \"apnc[mujoco]\"" in capsys.readouterr().err
+        assert missing("mujoco", "mujoco") in capsys.readouterr().err
 
 
 @needs_mujoco

@@ -16,6 +16,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
+from apnc.extras import missing
 from apnc.studies.search.command import run, tracked
 from apnc.studies.search.costs import costs_of, names
 from apnc.studies.search.design import Candidate, DesignVariable, design_variables, start
@@ -108,7 +109,7 @@ def _strategy(first: Sequence[float], sigma: float, seed: int, candidates: int) 
     try:
         cma: Any = importlib.import_module("cma")
     except ModuleNotFoundError:
-        raise RuntimeError('the search needs the extra: pip install "apnc[search]"') from None
+        raise RuntimeError(missing("cma", "search")) from None
     settings = {"bounds": [0.0, 1.0], "seed": seed, "popsize": candidates, "verbose": -9}
     return cma.CMAEvolutionStrategy(first, sigma, settings)
 

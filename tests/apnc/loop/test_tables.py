@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from records import synthetic_record
 
+from apnc.extras import missing
 from apnc.loop.csv_file import write_csv
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import End, Record
@@ -74,7 +75,7 @@ def test_a_missing_package_is_named_in_one_line(
     )
     with pytest.raises(ValueError) as error:
         getattr(RECORD, convert)()
-    assert str(error.value) == f"'{package}' is not installed: pip install \"apnc[study]\""
+    assert str(error.value) == missing(package, "study")
 
 
 def test_no_import_of_a_record_needs_pandas(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -406,7 +406,7 @@ def test_a_stuck_load_stops_an_oscillator_that_learns_and_not_one_that_does_not(
 
 def test_without_cma_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(__import__("sys").modules, "cma", None)
-    with pytest.raises(RuntimeError, match=r"apnc\[search\]"):
+    with pytest.raises(RuntimeError, match=r"'cma' is not installed: pip install .*\[search\]"):
         search(tmp_path)
 
 
