@@ -32,7 +32,7 @@ def test_every_study_has_its_command_and_options(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", STUDIES)
-def test_options_of_the_registry_are_those_of_the_grid(name: str) -> None:
+def test_a_study_has_its_entry_and_the_axes_that_are_its_options(name: str) -> None:
     study = load(STUDIES[name])
     assert study.entry == STUDIES[name] and name not in OF_THE_PRODUCT
     assert set(STUDIES[name].options) - {"robot"} == set(study.axes)

@@ -24,7 +24,7 @@ from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.studies import runner, store
 from apnc.studies.registry import STUDIES
-from apnc.studies.results import Result, id_of
+from apnc.studies.results import Result, StudyResults, id_of
 from apnc.studies.runner import grid_of, run_study, run_trial, run_trials
 from apnc.studies.study import Study, Trial, load
 from apnc_plant.robot import ROBOTS
@@ -137,6 +137,7 @@ def test_without_a_folder_the_results_come_back_and_no_file_is_left(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     results = run_study("mi", controllers=["apnc"], trials=2)
+    assert isinstance(results, StudyResults)
     assert [(result["mi"], result["seed"]) for result in results[:3]] == [
         (0.04, 0),
         (0.04, 1),
