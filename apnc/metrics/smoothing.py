@@ -48,7 +48,8 @@ def _weights(length: int) -> Array:
     keep their bits. SciPy's module takes longer to import than a walk takes.
     """
     place, half = np.arange(length, dtype=np.float64), length // 2
-    weights: Array = np.polyval(np.polyfit(place, np.eye(length), ORDER), place[:, np.newaxis])
+    fits = np.polyfit(place, np.eye(length), ORDER)
+    weights = np.asarray(np.polyval(fits, place[:, np.newaxis]), dtype=np.float64)
     powers = np.vander(half - place, ORDER + 1, increasing=True).T
     middle = np.linalg.lstsq(powers, np.eye(ORDER + 1)[0])[0]
     weights[half, half:] = middle[half:]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from apnc_core.types import Array
 from apnc_plant.ground import Ground
@@ -33,11 +32,27 @@ def leg_chains(robot: RobotDescription, plant: Plant) -> Array:
     hip1 = np.broadcast_to(np.array([leg.mount for leg in legs]), femur.shape)
     to_hip2 = np.broadcast_to(np.array([leg.outward(leg.hip_offset) for leg in legs]), femur.shape)
     links = np.stack([np.zeros_like(femur), to_hip2, to_hip2 + femur])  # before abduction
-    swung = Rotation.from_rotvec(abduction.ravel()[:, None] * [1.0, 0.0, 0.0])
-    turned = [swung.apply(link.reshape(-1, 3)).reshape(hip1.shape) + hip1 for link in links]
-    joints = _in_world(plant, np.concatenate(turned, axis=1))
+    x, y, z = np.moveaxis(links, -1, 0)
+    cos, sin = np.cos(abduction), np.sin(abduction)
+    turned = np.stack([x, cos * y - sin * z, sin * y + cos * z], axis=-1) + hip1
+    joints = _in_world(plant, np.concatenate([*turned], axis=1))
     joints = joints.reshape(len(joints), 3, len(legs), 3).swapaxes(1, 2)
     return np.concatenate([joints, plant["foot_position"][:, :, None]], axis=2)
+
+
+def trunk_rotation(rpy: Array) -> Array:
+    """Rotation from trunk to world, Rz(yaw) Ry(pitch) Rx(roll), shape (T, 3, 3).
+
+    Args:
+        rpy: roll, pitch and yaw [rad], shape (T, 3).
+    """
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy).T, np.sin(rpy).T
+    rows = [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
+    return np.moveaxis(np.array(rows), -1, 0)
 
 
 def in_ground(ground: Ground, points: Array) -> Array:
@@ -60,6 +75,6 @@ def clearance(ground: Ground, robot: RobotDescription, feet: Array) -> Array:
 
 def _in_world(plant: Plant, points: Array) -> Array:
     """Points of the trunk, shape (T or 1, k, 3), in the world, by Rz(yaw) Ry(pitch) Rx(roll)."""
-    turn = Rotation.from_euler("xyz", plant["rpy"]).as_matrix()
+    turn = trunk_rotation(plant["rpy"])
     placed: Array = plant["position"][:, None] + points @ turn.swapaxes(1, 2)
     return placed

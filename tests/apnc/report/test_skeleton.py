@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 from records import FEMUR, TIBIA, synthetic_record
+from scipy.spatial.transform import Rotation
 
-from apnc.report.skeleton import leg_chains, trunk_corners
+from apnc.report.skeleton import leg_chains, trunk_corners, trunk_rotation
 
 
 def test_knees_close_the_legs() -> None:
@@ -44,3 +45,22 @@ def test_pitch_and_roll_tilt_the_robot(points: Any) -> None:
     z = points(record.robot, record.signals)[0][..., 2].reshape(upper.stop, -1)[:, 0]
     # Positive pitch lowers the nose.
     assert z[front].mean() < z[hind].mean() - 0.005
+
+
+def test_trunk_rotation_turns_about_x_then_y_then_z() -> None:
+    rpy = np.random.default_rng(0).uniform(-np.pi, np.pi, (50, 3))
+    expected = Rotation.from_euler("xyz", rpy).as_matrix()
+    np.testing.assert_allclose(trunk_rotation(rpy), expected, rtol=0.0, atol=1e-15)
+
+
+def test_abduction_turns_the_leg_about_the_axis_ahead() -> None:
+    record = synthetic_record(0.1, roll_amplitude=0.0, pitch_amplitude=0.0, yaw=0.0)
+    record.signals["joint_angle"][..., 0] = 0.0
+    straight = leg_chains(record.robot, record.signals)
+    record.signals["joint_angle"][..., 0] = 0.3
+    turned = leg_chains(record.robot, record.signals)
+    turn = Rotation.from_rotvec([0.3, 0.0, 0.0])
+    for point in (1, 2):  # hip2 and knee, against hip1
+        expected = turn.apply((straight[:, :, point] - straight[:, :, 0]).reshape(-1, 3))
+        found = (turned[:, :, point] - turned[:, :, 0]).reshape(-1, 3)
+        np.testing.assert_allclose(found, expected, atol=1e-12)
