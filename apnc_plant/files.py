@@ -29,15 +29,15 @@ _UNKNOWN_KEY: Final = ("unexpected_keyword_argument", "extra_forbidden")
 
 
 def limits(unit: str = "", allowed: str = "", **constraints: Any) -> Any:
-    """Constraints of a field, with what a message says of them.
+    """Constraints of a field, and what a message says about them.
 
     Args:
         unit: unit of the numbers.
-        allowed: what is allowed, where the constraints do not say it.
-        constraints: as of ``pydantic.Field``: ``gt``, ``ge``, ``le``, ``pattern`` and so on.
+        allowed: words for what is allowed; without them they are made from the constraints.
+        constraints: arguments of ``pydantic.Field``: ``gt``, ``ge``, ``le``, ``pattern`` and so on.
     """
-    told: Any = {name: text for name, text in (("unit", unit), ("allowed", allowed)) if text}
-    return Field(json_schema_extra=told, **constraints)
+    words: Any = {name: text for name, text in (("unit", unit), ("allowed", allowed)) if text}
+    return Field(json_schema_extra=words, **constraints)
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field, Field))
@@ -45,11 +45,10 @@ def checked(error: type[ValueError]) -> Callable[[type[Model]], type[Model]]:
     """Decorator that makes a frozen dataclass, whose fields are checked by their types.
 
     Args:
-        error: what is raised for a value that is not allowed, with the line that
-            :func:`error_line` makes.
+        error: raised for a value that is not allowed, with the line of :func:`error_line`.
 
-    Numbers and arrays of numpy are taken as Python's own, and a table in the place of such a
-    dataclass is read as one.
+    Numbers and arrays of numpy are converted to Python's own. A field that holds such a dataclass
+    also accepts a table of its values.
     """
 
     def decorate(cls: type[Model]) -> type[Model]:
@@ -76,15 +75,15 @@ def checked(error: type[ValueError]) -> Callable[[type[Model]], type[Model]]:
 
 @cache
 def _adapter(model: Any) -> TypeAdapter[Any]:
-    """Made at the first use, since it takes long."""
+    """Validator of a model. It is built at the first use, because that takes long."""
     return TypeAdapter(model)
 
 
 def read_table(path: Path) -> dict[str, Any]:
-    """The table that a file holds: TOML if its name ends so, else JSON.
+    """Content of a file: TOML if its name ends in ``.toml``, else JSON.
 
     Raises:
-        ValueError: the file cannot be read or holds something else.
+        ValueError: the file cannot be read, or its content is not a table.
     """
     kind = "TOML" if path.suffix == ".toml" else "JSON"
     try:
@@ -104,7 +103,7 @@ def checked_file(model: type[Model], path: Path | str) -> Model:
 
     Args:
         model: a pydantic model, or a dataclass that may be :func:`checked`.
-        path: TOML if its name ends so, else JSON.
+        path: TOML if its name ends in ``.toml``, else JSON.
 
     Raises:
         ValueError: one line with the path, the key, its value and what is allowed.
@@ -126,7 +125,7 @@ def checked_table(
     Args:
         model: as of :func:`checked_file`.
         table: values by name.
-        shown_as: where the value at a location in the table stands for its author.
+        shown_as: converts a location in the table to the one that the author of a file wrote.
 
     Raises:
         ValueError: one line with the key, its value and what is allowed.
@@ -143,14 +142,15 @@ def error_line(
     model: Any,
     shown_as: Callable[[Location], Location] = lambda location: location,
 ) -> str:
-    """A refusal of pydantic as one line: key, value and what is allowed.
+    """An error of pydantic as one line with key, value and what is allowed.
+
+    Of several errors the first is reported, or an unknown key, because a misspelt key explains why
+    another is missing. Items of a list are counted from 1.
 
     Args:
-        error: the refusal; an unknown key is named first, since it explains a missing one.
-        model: what was to be made.
+        error: the error.
+        model: the model that refused the values.
         shown_as: as of :func:`checked_table`.
-
-    Items of a list are counted from 1.
     """
     found = sorted(error.errors(include_url=False), key=lambda e: e["type"] not in _UNKNOWN_KEY)[0]
     location, kind = found["loc"], found["type"]
@@ -159,7 +159,7 @@ def error_line(
     name = ""
     for key in shown_as(location):
         name += f"[{key + 1}]" if isinstance(key, int) else f".{key}" if name else key
-    if kind == "value_error":  # of a check of our own, which says what is allowed
+    if kind == "value_error":  # raised by a check of our own, whose text says what is allowed
         return ": ".join(filter(None, (name, str(found["ctx"]["error"]))))
     value = "missing" if kind == "missing" else repr(found["input"])
     if len(value) > LONGEST:
@@ -191,7 +191,7 @@ def _schema_at(model: Any, location: Location) -> dict[str, Any]:
 
 
 def _resolved(node: Any, named: Mapping[str, Any]) -> Any:
-    """Part of a JSON schema with what its references stand for."""
+    """Part of a JSON schema in which references are replaced by their definitions."""
     if isinstance(node, list):
         return [_resolved(entry, named) for entry in node]
     if not isinstance(node, dict):
@@ -212,7 +212,7 @@ _KINDS: Final = {
 
 
 def _words(schema: Mapping[str, Any], many: bool = False) -> str:
-    """What a JSON schema allows; empty if it does not say."""
+    """Words for what a JSON schema allows; empty if it allows anything."""
     if "allowed" in schema:
         return str(schema["allowed"])
     if "enum" in schema or "const" in schema:
