@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from apnc.loop.record import End, Record
     from apnc.loop.simulate import simulate
     from apnc.report.folder import write_run as write_report
+    from apnc.studies.results import StudyResults
     from apnc.studies.runner import run_study
     from apnc_plant.conditions import Conditions
     from apnc_plant.ground import Ground, Kerb, Obstacles, Plane, Waves
@@ -37,6 +38,7 @@ _PLACES: Final = {
     "simulate_many": "apnc.loop.many",
     "write_report": "apnc.report.folder:write_run",
     "run_study": "apnc.studies.runner",
+    "StudyResults": "apnc.studies.results",
     **dict.fromkeys(("WalkFeatures", "walk_features"), "apnc.features"),
     "Conditions": "apnc_plant.conditions",
     **dict.fromkeys(("Ground", "Kerb", "Obstacles", "Plane", "Waves"), "apnc_plant.ground"),
@@ -55,6 +57,7 @@ __all__ = [
     "Plant",
     "Record",
     "RobotDescription",
+    "StudyResults",
     "WalkFeatures",
     "Waves",
     "__version__",

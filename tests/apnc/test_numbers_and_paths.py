@@ -158,7 +158,7 @@ def test_a_gait_takes_lists_and_arrays(tmp_path: Path) -> None:
 
 
 def test_a_study_takes_arrays_and_paths(tmp_path: Path) -> None:
-    rows = run_study(
+    results = run_study(
         "mi",
         trials=np.int64(1),  # type: ignore[arg-type]
         controllers=np.array(["apnc"]),  # type: ignore[arg-type]
@@ -168,10 +168,10 @@ def test_a_study_takes_arrays_and_paths(tmp_path: Path) -> None:
         output=tmp_path,
     )
     usual = grid_of("mi", 1, ["apnc"], {"mi": [0.1, 0.2]}, 0.5, str(ROBOTS / "hexapod.toml"))
-    assert [row["key"] for row in rows] == [trial.id[-1] for trial in usual]
+    assert [result["key"] for result in results] == [trial.id.key for trial in usual]
     stored = [json.loads(line) for line in (tmp_path / "trials.jsonl").read_text().splitlines()]
-    assert {row["robot"] for row in stored} == {str(ROBOTS / "hexapod.toml")}
-    assert {row["error"] for row in stored} == {""}
+    assert {result["robot"] for result in stored} == {str(ROBOTS / "hexapod.toml")}
+    assert {result["error"] for result in stored} == {""}
 
 
 def test_a_build_is_the_same() -> None:

@@ -43,15 +43,16 @@ def test_what_a_person_writes(tmp_path: Path) -> None:
     assert (tmp_path / "walk" / "report.html").stat().st_size > 100_000
 
 
-def test_a_study_gives_its_rows() -> None:
-    rows = apnc.run_study(
+def test_a_study_gives_its_results() -> None:
+    results = apnc.run_study(
         "terrain", trials=2, controllers=["apnc"], chosen={"roughness": [0.5]}, duration=1.0
     )
-    assert [(row["controller"], row["roughness"], row["seed"]) for row in rows] == [
+    assert isinstance(results, apnc.StudyResults)
+    assert [(each["controller"], each["roughness"], each["seed"]) for each in results] == [
         ("apnc", 0.5, 0),
         ("apnc", 0.5, 1),
     ]
-    assert all(row["error"] == "" for row in rows)
+    assert all(each["error"] == "" for each in results)
 
 
 USER = """
