@@ -13,7 +13,7 @@ from typing import Final
 import apnc_core
 from build_fmu import sources, terminals
 from build_fmu.cache import cache_folder, temporary_folder
-from build_fmu.compile import NO_COMPILER, Progress, compile_library, compiler_version
+from build_fmu.compile import NO_COMPILER, BuildProgress, compile_library, compiler_version
 from build_fmu.controller import controller_model
 from build_fmu.documentation import controller_documentation
 from build_fmu.model import Model
@@ -32,7 +32,7 @@ READY: Final = Path(__file__).parent / "ready"
 
 def fmu_bytes(
     options: BuildOptions,
-    progress: Progress = lambda platform: None,
+    progress: BuildProgress = lambda platform: None,
     files: dict[str, bytes] | None = None,
 ) -> bytes:
     """Bytes of the controller's FMU, built without the cache.
@@ -61,7 +61,7 @@ def built(
     configured: Callable[[str], dict[str, bytes]],
     pages: dict[str, bytes],
     platforms: tuple[str, ...],
-    progress: Progress = lambda platform: None,
+    progress: BuildProgress = lambda platform: None,
 ) -> bytes:
     """Bytes of the FMU of any model.
 
@@ -133,7 +133,7 @@ def _files_of(package: str) -> list[bytes]:
     return [e.read_bytes() for e in sorted(wanted, key=lambda e: e.name)]
 
 
-def cached_fmu(options: BuildOptions, progress: Progress = lambda platform: None) -> Path:
+def cached_fmu(options: BuildOptions, progress: BuildProgress = lambda platform: None) -> Path:
     """Path of an FMU that came with the package, lies in the cache or is built now.
 
     Args:

@@ -13,7 +13,7 @@ from typing import Final
 from build_fmu.cache import cache_folder, temporary_folder
 from build_fmu.platforms import MODEL, BuildError, Platform
 
-Progress = Callable[[str], None]
+BuildProgress = Callable[[str], None]
 """Called with the name of the platform that is compiled next."""
 
 NO_COMPILER: Final = "the C compiler is not installed: pip install ziglang"

@@ -10,7 +10,7 @@ from typing import Final
 
 from build_fmu import compile as compiler
 from build_fmu.cache import cache_folder, temporary_folder
-from build_fmu.compile import Progress
+from build_fmu.compile import BuildProgress
 from build_fmu.platforms import PLATFORMS, BuildError, Platform, host_platform
 from build_fmu.writing import write_atomically
 
@@ -55,7 +55,9 @@ def library_name(platform: Platform) -> str:
     return hashlib.sha256(b"\0".join(parts)).hexdigest()[:16] + platform.suffix
 
 
-def library_path(platform: str | None = None, progress: Progress = lambda platform: None) -> Path:
+def library_path(
+    platform: str | None = None, progress: BuildProgress = lambda platform: None
+) -> Path:
     """Path of a library that came with the package, lies in the cache or is built now.
 
     Args:

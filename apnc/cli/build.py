@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from typer import Option
 
-from apnc.cli.console import File, Text, Texts, apart, file_option, given, say, status, writable
+from apnc.cli.console import apart, file_option, given, say, status, writable
 from apnc.controllers import CONTROLLERS, named_controller
 
 if TYPE_CHECKING:
@@ -21,18 +21,28 @@ _CONTROLLERS: Final = ", ".join(CONTROLLERS)
 def build(
     output: Annotated[Path, file_option("File to write.")] = Path("Apnc.fmu"),
     legs: Annotated[int | None, Option(help="Number of legs; the robot's, or 4.")] = None,
-    robot: Annotated[Text, Option(help="Name or file; the shipped one of so many legs.")] = None,
+    robot: Annotated[
+        str | None, Option(help="Name or file; the shipped one of so many legs.")
+    ] = None,
     naming: Annotated[str, Option(help="structured, flat: leg[1].grf, leg1_grf.")] = "structured",
     fmi: Annotated[int, Option(help="Version of the standard, 2 or 3.")] = 2,
-    platform: Annotated[Texts, Option(help="As win64; host; all if omitted; repeatable.")] = None,
+    platform: Annotated[
+        list[str] | None, Option(help="As win64; host; all if omitted; repeatable.")
+    ] = None,
     preset: Annotated[str, Option(help="At the start: robot, lilibot, paper.")] = "robot",
-    setting: Annotated[Texts, Option("--set", help="NAME=VALUE at the start; repeatable.")] = None,
-    params: Annotated[File, Option("--params", "--parameters", help="SSV, TOML, JSON.")] = None,
-    gait: Annotated[File, Option(help="Stored gait at the start.")] = None,
-    controller: Annotated[Text, Option(help=f"{_CONTROLLERS} at the start.")] = None,
+    setting: Annotated[
+        list[str] | None, Option("--set", help="NAME=VALUE at the start; repeatable.")
+    ] = None,
+    params: Annotated[
+        Path | None, Option("--params", "--parameters", help="SSV, TOML, JSON.")
+    ] = None,
+    gait: Annotated[Path | None, Option(help="Stored gait at the start.")] = None,
+    controller: Annotated[str | None, Option(help=f"{_CONTROLLERS} at the start.")] = None,
     enumerations: Annotated[str, Option(help="enumeration, integer.")] = "enumeration",
     reals: Annotated[bool, Option("--reals", help="Every variable as a Real.")] = False,
-    release: Annotated[File, Option(help="Folder for all files of a release instead.")] = None,
+    release: Annotated[
+        Path | None, Option(help="Folder for all files of a release instead.")
+    ] = None,
 ) -> None:
     """Build the FMU."""
     from apnc.loop.experiment import OWN_PRESET

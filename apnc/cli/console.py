@@ -17,11 +17,6 @@ import typer
 if TYPE_CHECKING:
     from rich.status import Status
 
-Text = str | None
-Texts = list[str] | None
-Number = float | None
-File = Path | None
-
 
 def writable(path: Path, *, file: bool = False) -> Path:
     """A folder, or a file, made or proved writable before anything is computed.

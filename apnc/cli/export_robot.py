@@ -10,7 +10,7 @@ from typing import Annotated, Final
 
 from typer import Option
 
-from apnc.cli.console import Text, apart, given, say, writable
+from apnc.cli.console import apart, given, say, writable
 
 FORMATS: Final = ("mjcf", "urdf")
 
@@ -19,11 +19,13 @@ def export_robot(
     form: Annotated[str, Option("--format", help="mjcf, urdf.")] = "mjcf",
     robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
     output: Annotated[
-        Text, Option(metavar="<path>", help="File, or folder/ for ROBOT.xml, ROBOT.urdf.")
+        str | None, Option(metavar="<path>", help="File, or folder/ for ROBOT.xml, ROBOT.urdf.")
     ] = None,
-    servo: Annotated[Text, Option(help="Of MJCF: position, dcmotor; position if omitted.")] = None,
+    servo: Annotated[
+        str | None, Option(help="Of MJCF: position, dcmotor; position if omitted.")
+    ] = None,
     root: Annotated[
-        Text, Option(help="Of URDF: trunk; or base, without mass, for KDL; trunk if omitted.")
+        str | None, Option(help="Of URDF: trunk; or base, without mass, for KDL; trunk if omitted.")
     ] = None,
 ) -> None:
     """Write a robot as MJCF (MuJoCo) or URDF (ROS): masses, joints, servos, feet, sensors."""

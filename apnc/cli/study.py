@@ -14,7 +14,7 @@ import typer
 from typer import Option
 
 import apnc
-from apnc.cli.console import Number, Text, bar, say, writable
+from apnc.cli.console import bar, say, writable
 from apnc.cli.interrupt import STOP, Interrupted
 from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry, Registry
 
@@ -52,14 +52,14 @@ def command_of(
 
     parameters = [
         option("trials", int, 20, "Seeds per cell of the grid."),
-        option("duration", Number, None, "Simulated time of a trial [s]."),
+        option("duration", float | None, None, "Simulated time of a trial [s]."),
         option("workers", int | None, None, "Threads; all cores if omitted."),
-        option("scheduler", Text, None, "Address of a Dask scheduler, tcp://..."),
+        option("scheduler", str | None, None, "Address of a Dask scheduler, tcp://..."),
         option("output", Path, Path(folder), "Folder for the results."),
         option("resume", bool, False, "Finish an interrupted study."),
         option("series", bool, False, "Keep the record of every trial."),
         *(
-            option(axis, Text, None, _ABOUT.get(axis, "Some of all, separated by commas."))
+            option(axis, str | None, None, _ABOUT.get(axis, "Some of all, separated by commas."))
             for axis in axes
         ),
     ]

@@ -9,7 +9,7 @@ from typing import Annotated
 
 from typer import Context, Option
 
-from apnc.cli.console import File, Number, Texts, say, status, writable
+from apnc.cli.console import say, status, writable
 from apnc.controllers import CONTROLLERS
 
 _CONTROLLERS = ", ".join(CONTROLLERS)
@@ -18,10 +18,14 @@ _NAMING = "structured, flat: leg[1].grf, leg1_grf."
 
 def build_plant(
     robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
-    output: Annotated[File, Option(help="File to write; LilibotPlant.fmu if omitted.")] = None,
+    output: Annotated[
+        Path | None, Option(help="File to write; LilibotPlant.fmu if omitted.")
+    ] = None,
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
     fmi: Annotated[int, Option(help="Version of the standard, 2 or 3.")] = 2,
-    platform: Annotated[Texts, Option(help="As win64; host; all if omitted; repeatable.")] = None,
+    platform: Annotated[
+        list[str] | None, Option(help="As win64; host; all if omitted; repeatable.")
+    ] = None,
     enumerations: Annotated[str, Option(help="enumeration, integer.")] = "enumeration",
     reals: Annotated[bool, Option("--reals", help="Every variable as a Real.")] = False,
 ) -> None:
@@ -40,23 +44,25 @@ def build_plant(
 
 def build_system(
     context: Context,
-    output: Annotated[File, Option(help="Archive to write; Lilibot.ssp if omitted.")] = None,
+    output: Annotated[Path | None, Option(help="Archive to write; Lilibot.ssp if omitted.")] = None,
     robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
     mi: Annotated[float, Option(help="Modulatory input at the start.")] = 0.08,
     seed: Annotated[int, Option(help="Of noise, asymmetry and obstacles.")] = 0,
     condition: Annotated[str, Option(help="C1 to C4, S1 to S3.")] = "C1",
     payload: Annotated[float, Option(help="Box on the trunk, on top of the condition's [kg].")] = 0,
-    roughness: Annotated[Number, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
-    slope: Annotated[Number, Option(help="Rise of the ground along x [deg].")] = None,
+    roughness: Annotated[float | None, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
+    slope: Annotated[float | None, Option(help="Rise of the ground along x [deg].")] = None,
     turn: Annotated[float, Option(help="-1 right ... 1 left.")] = 0.0,
     controller: Annotated[str, Option(help=f"{_CONTROLLERS}.")] = "apnc",
     preset: Annotated[str, Option(help="robot, lilibot, paper.")] = "robot",
     rate: Annotated[float, Option(help="Update rate [Hz].")] = 60.0,
-    setting: Annotated[Texts, Option("--set", help="NAME=VALUE; servo.stiffness=20 too.")] = None,
-    gait: Annotated[File, Option(help="Stored gait to start with.")] = None,
+    setting: Annotated[
+        list[str] | None, Option("--set", help="NAME=VALUE; servo.stiffness=20 too.")
+    ] = None,
+    gait: Annotated[Path | None, Option(help="Stored gait to start with.")] = None,
     duration: Annotated[float, Option(help="End of the default experiment [s].")] = 45.0,
-    platform: Annotated[Texts, Option(help="As for build; this one if omitted.")] = None,
+    platform: Annotated[list[str] | None, Option(help="As for build; this one if omitted.")] = None,
 ) -> None:
     """Build controller and robot, connected: an SSP archive, and a folder for other tools."""
     from apnc.cli.build import platform_names

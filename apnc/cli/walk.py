@@ -15,10 +15,6 @@ from typer import Option
 
 import apnc
 from apnc.cli.console import (
-    File,
-    Number,
-    Text,
-    Texts,
     apart,
     bar,
     file_option,
@@ -56,30 +52,40 @@ _NAMED: Final = ", ".join(CONDITIONS)
 
 def walk(
     context: typer.Context,
-    robot: Annotated[Text, Option(help="Name or TOML file; lilibot if omitted.")] = None,
-    mi: Annotated[Text, Option(help="Modulatory input *; 0.08 if omitted.")] = None,
-    duration: Annotated[Number, Option(help="Simulated time [s]; 45.0 if omitted.")] = None,
+    robot: Annotated[str | None, Option(help="Name or TOML file; lilibot if omitted.")] = None,
+    mi: Annotated[str | None, Option(help="Modulatory input *; 0.08 if omitted.")] = None,
+    duration: Annotated[float | None, Option(help="Simulated time [s]; 45.0 if omitted.")] = None,
     seed: Annotated[int | None, Option(help="Of noise and asymmetry; 0 if omitted.")] = None,
     controller: Annotated[
-        Text, Option(help=f"{_CONTROLLERS}; apnc, or the method of --fmu, if omitted.")
+        str | None, Option(help=f"{_CONTROLLERS}; apnc, or the method of --fmu, if omitted.")
     ] = None,
-    preset: Annotated[Text, Option(help="robot, lilibot, paper; robot if omitted.")] = None,
-    setting: Annotated[Texts, Option("--set", help="Parameter, NAME=VALUE; repeatable.")] = None,
-    params: Annotated[File, Option(help="summary.json, SSV, JSON or TOML file.")] = None,
-    gait: Annotated[File, Option(help="Stored gait to start with.")] = None,
-    ground: Annotated[Text, Option(help="KIND:NAME=VALUE,... as in docs/using.md.")] = None,
-    roughness: Annotated[Number, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
-    slope: Annotated[Number, Option(help="Rise of the ground along x [deg].")] = None,
-    condition: Annotated[Text, Option(help=f"{_NAMED} *; C1 if omitted.")] = None,
-    turn: Annotated[Text, Option(help="-1 right ... 1 left *; 0.0 if omitted.")] = None,
-    reset: Annotated[Text, Option(help="Hold at the start: true, false *.")] = None,
-    rate: Annotated[Number, Option(help="Update rate [Hz]; 60.0 if omitted.")] = None,
-    step: Annotated[Number, Option(help="Longest integration step [s].")] = None,
-    engine: Annotated[Text, Option(help="exudyn, mujoco, compiled; exudyn if omitted.")] = None,
-    fmu: Annotated[Text, Option(help="Of one's own; its start values hold unless set.")] = None,
+    preset: Annotated[str | None, Option(help="robot, lilibot, paper; robot if omitted.")] = None,
+    setting: Annotated[
+        list[str] | None, Option("--set", help="Parameter, NAME=VALUE; repeatable.")
+    ] = None,
+    params: Annotated[Path | None, Option(help="summary.json, SSV, JSON or TOML file.")] = None,
+    gait: Annotated[Path | None, Option(help="Stored gait to start with.")] = None,
+    ground: Annotated[str | None, Option(help="KIND:NAME=VALUE,... as in docs/using.md.")] = None,
+    roughness: Annotated[float | None, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
+    slope: Annotated[float | None, Option(help="Rise of the ground along x [deg].")] = None,
+    condition: Annotated[str | None, Option(help=f"{_NAMED} *; C1 if omitted.")] = None,
+    turn: Annotated[str | None, Option(help="-1 right ... 1 left *; 0.0 if omitted.")] = None,
+    reset: Annotated[str | None, Option(help="Hold at the start: true, false *.")] = None,
+    rate: Annotated[float | None, Option(help="Update rate [Hz]; 60.0 if omitted.")] = None,
+    step: Annotated[float | None, Option(help="Longest integration step [s].")] = None,
+    engine: Annotated[
+        str | None, Option(help="exudyn, mujoco, compiled; exudyn if omitted.")
+    ] = None,
+    fmu: Annotated[
+        str | None, Option(help="Of one's own; its start values hold unless set.")
+    ] = None,
     output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),
-    json_file: Annotated[File, file_option("Write the summary here as well.", "--json")] = None,
-    mcap: Annotated[File, file_option("An MCAP log to write (Foxglove, PlotJuggler).")] = None,
+    json_file: Annotated[
+        Path | None, file_option("Write the summary here as well.", "--json")
+    ] = None,
+    mcap: Annotated[
+        Path | None, file_option("An MCAP log to write (Foxglove, PlotJuggler).")
+    ] = None,
 ) -> None:
     """Walk a robot under the FMU; write summary.json, record.csv and report.html.
 
@@ -169,7 +175,9 @@ def experiment_of(options: Mapping[str, Any]) -> Experiment:
     return apnc.Experiment(**given, settings=settings)
 
 
-def _ground(text: Text, roughness: Number, slope: Number, seed: int | None) -> dict[str, Ground]:
+def _ground(
+    text: str | None, roughness: float | None, slope: float | None, seed: int | None
+) -> dict[str, Ground]:
     if (text, roughness, slope) == (None, None, None):
         return {}
     if text is not None and roughness is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -26,6 +26,9 @@ from apnc_plant.options import PlantOptions
 from apnc_plant.sample import record_signals, sample_size
 from apnc_plant.start import start_coordinates
 from build_fmu.build import host_fmu
+
+Stop = Callable[[], bool]
+"""Asked now and then while robots walk; True ends the work."""
 
 
 def fmu_of(experiment: Experiment) -> str:

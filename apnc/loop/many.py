@@ -10,13 +10,12 @@ from dataclasses import replace
 from typing import Any, Final, Literal, TypeVar, overload
 
 from apnc.features import WalkFeatures, walk_features
-from apnc.loop.batch import Batch, Lanes, Run, contacts_of, lanes_of
+from apnc.loop.batch import Batch, Lanes, Run, Stop, contacts_of, lanes_of
 from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 
-Result = TypeVar("Result")
-Stop = Callable[[], bool]
+Found = TypeVar("Found")
 
 _POLL_S: Final = 0.1
 """How often ``stop`` is asked while nothing ends [s]."""
@@ -94,11 +93,11 @@ def simulate_many(
 
 def walk_many(
     experiments: Sequence[Experiment],
-    each: Callable[[int, Record], Result],
+    each: Callable[[int, Record], Found],
     *,
     workers: int = 1,
     stop: Stop = lambda: False,
-) -> Iterator[tuple[int, Result | Exception]]:
+) -> Iterator[tuple[int, Found | Exception]]:
     """Walk experiments and give what ``each`` makes of every record, as they finish.
 
     Args:

@@ -8,9 +8,9 @@ from bisect import bisect_right
 from collections.abc import Callable
 from typing import Any, TypeAlias, TypeVar
 
-Value = TypeVar("Value")
-Steps: TypeAlias = tuple[tuple[float, Value], ...]
-Schedule: TypeAlias = Value | Steps[Value]
+T = TypeVar("T")
+Steps: TypeAlias = tuple[tuple[float, T], ...]
+Schedule: TypeAlias = T | Steps[T]
 """A value that holds all the time, or steps of it."""
 
 
@@ -21,7 +21,7 @@ def steps_of(value: Schedule[Any]) -> Steps[Any]:
     return ((0.0, value),)
 
 
-def checked_schedule(value: Any, check: Callable[[Any], Value]) -> Schedule[Value]:
+def checked_schedule(value: Any, check: Callable[[Any], T]) -> Schedule[T]:
     """The schedule with each of its values as ``check`` gives it.
 
     Raises:
@@ -54,7 +54,7 @@ class ScheduleLookup:
         return self._values[bisect_right(self._starts, t) - 1]
 
 
-def parse_schedule(name: str, text: str, convert: Callable[[str], Value]) -> Schedule[Value]:
+def parse_schedule(name: str, text: str, convert: Callable[[str], T]) -> Schedule[T]:
     """``"0.1"`` -> 0.1; ``"0:0.15,25:0.4"`` -> ((0, 0.15), (25, 0.4)).
 
     Raises:

@@ -9,7 +9,7 @@ from typing import Any, Final, Protocol
 
 import numpy as np
 
-from apnc.loop.batch import Batch, Run, contacts_of, lanes_of
+from apnc.loop.batch import Batch, Run, Stop, contacts_of, lanes_of
 from apnc.loop.engines import COMPILED, plant_in
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuController
@@ -28,8 +28,8 @@ class Shown(Protocol):
         """Relative phases [rad], shape (n_legs - 1,)."""
 
 
-Progress = Callable[[float, Shown], None]
-Stop = Callable[[], bool]
+WalkProgress = Callable[[float, Shown], None]
+"""Called with the time [s] and what is shown of the controller."""
 
 IN_C_S: Final = 0.25
 """Simulated time that is walked in C between two calls of ``progress`` and ``stop`` [s]."""
@@ -39,7 +39,7 @@ def simulate(
     experiment: Experiment,
     *,
     plant: Plant | None = None,
-    progress: Progress = lambda t, controller: None,
+    progress: WalkProgress = lambda t, controller: None,
     stop: Stop = lambda: False,
 ) -> Record:
     """Walk a robot under the controller FMU.
@@ -93,7 +93,7 @@ def _run(
     experiment: Experiment,
     plant: Plant,
     controller: FmuController,
-    progress: Progress,
+    progress: WalkProgress,
     stop: Stop,
 ) -> Record:
     begin, Ts = time.perf_counter(), experiment.Ts
@@ -136,7 +136,7 @@ def _run(
     )
 
 
-def _run_in_c(experiment: Experiment, progress: Progress, stop: Stop) -> Record:
+def _run_in_c(experiment: Experiment, progress: WalkProgress, stop: Stop) -> Record:
     batch = Batch(lanes_of(experiment), contacts_of([experiment]), single=True)
     run = Run(experiment, batch.controller)
     ticks = max(1, round(IN_C_S * experiment.rate))

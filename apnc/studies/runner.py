@@ -10,9 +10,10 @@ from typing import Any, Final
 
 import apnc_core
 from apnc.features import walk_features
+from apnc.loop.batch import Stop
 from apnc.loop.csv_file import write_csv
 from apnc.loop.engines import COMPILED
-from apnc.loop.many import Stop, walk_many
+from apnc.loop.many import walk_many
 from apnc.loop.record import Record
 from apnc.loop.simulate import simulate
 from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry, Registry, names_of

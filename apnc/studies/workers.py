@@ -12,9 +12,8 @@ from itertools import islice, takewhile
 from typing import Any, Final, Protocol
 
 from apnc.extras import install_command
-from apnc.loop.batch import Lanes, lanes_of
+from apnc.loop.batch import Lanes, Stop, lanes_of
 from apnc.loop.engines import COMPILED
-from apnc.loop.many import Stop
 from apnc.studies.results import Result
 from apnc.studies.study import Trial
 

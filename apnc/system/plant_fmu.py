@@ -16,7 +16,7 @@ from apnc_plant.variable_numbers import VARIABLE_NUMBERS
 from apnc_plant.variables import ENUMERATIONS, TABLE, starts_of
 from build_fmu import sources
 from build_fmu.build import built, cached_path
-from build_fmu.compile import Progress
+from build_fmu.compile import BuildProgress
 from build_fmu.documentation import documentation, page_of
 from build_fmu.model import Model, RealType
 from build_fmu.platforms import PLATFORMS, check_platforms
@@ -117,7 +117,7 @@ def plant_model(robot: str) -> str:
     return (name if name[:1].isalpha() else f"Robot{name}") + MODEL_SUFFIX
 
 
-def plant_fmu(build: PlantBuild, progress: Progress = lambda platform: None) -> Path:
+def plant_fmu(build: PlantBuild, progress: BuildProgress = lambda platform: None) -> Path:
     """Path of the plant FMU: from the cache, or built now. The same choices give the same bytes.
 
     Args:
