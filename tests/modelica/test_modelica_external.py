@@ -178,3 +178,19 @@ def test_modelica_calls_c_with_the_arguments_it_takes(file: str, function: str) 
     declared, called = arguments(header, function), arguments(call, function)
     assert declared == called
     assert set(called) - {"state", "k", "n"} <= {v.name for v in TABLE}
+
+
+@pytest.mark.parametrize(
+    ("compiler", "standard", "taken"),
+    [("cc", "c99", True), ("cc", "c89", False), ("c++", "c++17", False)],
+)
+def test_the_header_is_c99_and_not_cpp(
+    compiler: str, standard: str, taken: bool, tmp_path: Path
+) -> None:
+    """So says docs/modelica.md."""
+    name = "only.c" if compiler == "cc" else "only.cpp"
+    (tmp_path / name).write_text('#include "apnc_modelica.h"\n')
+    command = [sys.executable, "-m", "ziglang", compiler, f"-std={standard}", "-pedantic-errors"]
+    command += [f"-I{INCLUDE}", f"-I{NATIVE}", "-c", name, "-o", "only.o"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode == 0) == taken, done.stderr
