@@ -47,10 +47,10 @@ def _weights(length: int) -> Array:
     The steps are those of ``scipy.signal.savgol_filter`` with the same rounding, so that figures
     keep their bits. SciPy's module takes longer to import than a walk takes.
     """
-    place, half = np.arange(length, dtype=np.float64), length // 2
-    fits = np.polyfit(place, np.eye(length), ORDER)
-    weights = np.asarray(np.polyval(fits, place[:, np.newaxis]), dtype=np.float64)
-    powers = np.vander(half - place, ORDER + 1, increasing=True).T
+    sample, half = np.arange(length, dtype=np.float64), length // 2
+    fits = np.polyfit(sample, np.eye(length), ORDER)
+    weights = np.asarray(np.polyval(fits, sample[:, np.newaxis]), dtype=np.float64)
+    powers = np.vander(half - sample, ORDER + 1, increasing=True).T
     middle = np.linalg.lstsq(powers, np.eye(ORDER + 1)[0])[0]
     weights[half, half:] = middle[half:]
     weights[half, :half] = middle[:half:-1]

@@ -1,4 +1,4 @@
-"""The folder of a run: summary, record and report, of one run and whole, or not at all."""
+"""The folder of a run: its summary, record and report."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from build_fmu.writing import Write, write_together
 
 
 def write_run(record: Record, folder: Path | str) -> WalkFeatures:
-    """Write ``summary.json``, ``record.csv`` and ``report.html`` of a run.
+    """Write ``summary.json``, ``record.csv`` and ``report.html`` of a run, all or none.
 
     Args:
         record: the run, however it ended.
-        folder: made if missing; an older run's files in it are replaced, all or none.
+        folder: made if missing; files of an older run in it are replaced.
 
     Returns:
-        Its key figures.
+        What is measured of the run.
 
     Raises:
         OSError: a file cannot be written.
@@ -40,7 +40,7 @@ def write_run(record: Record, folder: Path | str) -> WalkFeatures:
 
 
 def summary_text(record: Record, summary: WalkFeatures) -> str:
-    """Text of ``summary.json``: key figures, what was run, and units of the columns."""
+    """Text of ``summary.json``: figures of the run, what was run, and units of the columns."""
     units = {"columns": {column.name: column.unit for column in column_names(record)}}
     content = summary.to_dict() | what_was_run(record.experiment, record.parameters) | units
     return json.dumps(content, indent=2, allow_nan=False) + "\n"

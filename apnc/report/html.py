@@ -32,9 +32,9 @@ def page(
         data: what the scripts read as ``apnc.data``; ``time`` has the times of the figures.
         context: names in the template.
     """
-    places = dict.fromkeys((package, "apnc.report"))
+    packages = dict.fromkeys((package, "apnc.report"))
     environment = jinja2.Environment(
-        loader=jinja2.ChoiceLoader([jinja2.PackageLoader(p, "templates") for p in places]),
+        loader=jinja2.ChoiceLoader([jinja2.PackageLoader(p, "templates") for p in packages]),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
