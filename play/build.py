@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any, Final
 
 from play.bundle import page
-from play.numbers import MI, robot_data, shared_data
+from play.numbers import START, robot_data, shared_data
 from play.wasm import module
 
-ROBOTS: Final = tuple(MI)
+ROBOTS: Final = tuple(START)
 STILL: Final = Path(__file__).parents[1] / "docs" / "pictures" / "play.webp"
 """The page as it walks, which ``python -m play.still`` takes."""
 

@@ -34,8 +34,8 @@ SHOWN: Final = {"apnc": "APNC", "apc": "APNC without a stored gait"} | {
 }
 """Labels of the controllers to choose from, and their names on the page."""
 
-MI: Final = {"lilibot": 0.18, "hexapod": 0.15}
-"""Stepping rate at which each robot starts: its feet lift, and it walks straight ahead."""
+START: Final = {"lilibot": (0.2, 1), "hexapod": (0.12, 5)}
+"""MI and seed with which the page opens: a robot that walks nearly straight ahead."""
 
 
 def struct_of(robot: RobotDescription) -> bytes:
@@ -112,7 +112,8 @@ def robot_data(name: str) -> dict[str, Any]:
         ],
         "gaits": metrics.GAITS.get(n, {}),
         "gait": metrics.gait_name(n),
-        "mi": MI[name],
+        "mi": START[name][0],
+        "seed": START[name][1],
         "parameters": {
             label: _floats(Experiment(robot=name, controller=label).starts()) for label in SHOWN
         },

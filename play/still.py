@@ -13,8 +13,14 @@ from PIL import Image
 
 from play.build import STILL, build
 
-SIZE: Final = (900, 692)
-"""The stage and the strip [px]: the controls lie below."""
+SIZE: Final = (900, 600)
+"""Of the picture [px]."""
+SHOWN: Final = """<style>
+header, .invitation, .time, aside { display: none !important }
+main { padding: 0 !important; height: 100vh }
+.stage { flex: 1; height: auto !important; min-height: 0 !important }
+</style>"""
+"""What can be pressed is left out."""
 
 
 def main() -> None:
@@ -25,6 +31,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         page, picture = Path(folder) / "page.html", Path(folder) / "picture.png"
         build(page)
+        text = page.read_text(encoding="utf-8")
+        page.write_text(text.replace("</head>", f"{SHOWN}</head>"), encoding="utf-8")
         command = [
             *(browser, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"),
             # it has walked for some seconds then, and stands still

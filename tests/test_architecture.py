@@ -20,7 +20,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "apnc": {"apnc_core", "apnc_plant", "build_fmu", "exudyn_models", "mujoco_models"},
 }
 PRODUCT = set(MAY_IMPORT)
-MAY_IMPORT |= {"research": PRODUCT, "benchmarks": PRODUCT | {"research"}}
+MAY_IMPORT |= {"research": PRODUCT, "benchmarks": PRODUCT | {"research"}, "play": PRODUCT}
 OUTSIDE_OF_CORE = {"numpy"}
 
 

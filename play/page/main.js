@@ -210,7 +210,8 @@ class Page {
 
   pause() { this.paused = !this.paused; this.before = undefined; this.changed(); }
   slower() { this.settings.slow = { 1: 4, 4: 10, 10: 1 }[this.settings.slow] ?? 1; this.changed(); }
-  again() { this.begin({}); }
+  /** Another seed: another sensor noise and another asymmetry of the robot. */
+  again() { this.begin({ seed: this.settings.seed + 1 }); }
 
   save() {
     const link = document.createElement("a");

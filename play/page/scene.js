@@ -9,6 +9,7 @@ const REACH = 1.7; // [m] of the ground that is drawn
 const PRINTS = 10; // [s] that footprints last
 const ARROW = 0.13; // [m] of the arrow of a load of half the weight
 const CALM = 0.15; // [s] by which the camera lags behind
+const TURNS = 1.5; // [s] by which it lags behind the heading
 const LOST = 0.3; // [m] of lag at which it jumps
 const DARK = [43, 50, 58];
 
@@ -65,7 +66,9 @@ export class Scene {
     const below = turnedBack(G, position);
     const target = [...position];
     const away = camera.follow ? Math.hypot(...add(target, camera.follow, -1)) : Infinity;
-    camera.follow = away > LOST ? target : mix(camera.follow, target, 1 - Math.exp(-view.passed / CALM));
+    const lost = away > LOST, share = (slow) => 1 - Math.exp(-view.passed / slow);
+    camera.follow = lost ? target : mix(camera.follow, target, share(CALM));
+    camera.heading += (lost ? 1 : share(TURNS)) * (rpy[2] - camera.heading);
     const rest = turned(G, [below[0], below[1], 0.085]);
     const focus = [camera.follow[0], camera.follow[1], rest[2]];
     const narrow = this.width < 560;
@@ -253,13 +256,16 @@ export class Scene {
   }
 
   pushArrow(position, look) {
-    const { context: c } = this, [x, y] = this.camera.see(position);
-    c.strokeStyle = look.alarm;
-    c.lineWidth = 4;
+    const { context: c } = this, [x, y] = this.camera.see(position), [dx, dy] = this.aim, length = Math.hypot(dx, dy) || 1;
+    const [u, v] = [dx / length, dy / length], head = Math.min(16, length);
+    c.strokeStyle = c.fillStyle = look.alarm;
+    c.lineWidth = 5;
     c.beginPath();
     c.moveTo(x, y);
-    c.lineTo(x + this.aim[0], y + this.aim[1]);
+    c.lineTo(x + dx - head * u, y + dy - head * v);
     c.stroke();
+    this.path([[x + dx, y + dy], [x + dx - head * (u + 0.6 * v), y + dy - head * (v - 0.6 * u)], [x + dx - head * (u - 0.6 * v), y + dy - head * (v + 0.6 * u)]]);
+    c.fill();
   }
 
   /** Direction on the ground of a way on the picture [px]. */

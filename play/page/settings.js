@@ -2,10 +2,10 @@
 
 export const LIMITS = { mi: [0.04, 0.4], turn: [-1, 1], load: [0, 1.5], slope: [-8, 8], bumps: [0, 1], seed: [0, 2 ** 32 - 1], slow: [1, 10] };
 
-export const defaults = (data, robot = data.robots[0].name) => ({
-  robot, controller: Object.keys(data.controllers)[0], seed: 0, mi: data.robots.find((r) => r.name === robot).mi,
-  turn: 0, load: 0, slope: 0, bumps: 0, slow: 1, off: new Set(),
-});
+export function defaults(data, name = data.robots[0].name) {
+  const { mi, seed } = data.robots.find((robot) => robot.name === name);
+  return { robot: name, controller: Object.keys(data.controllers)[0], seed, mi, turn: 0, load: 0, slope: 0, bumps: 0, slow: 1, off: new Set() };
+}
 
 /** Settings of an address, e.g. #robot=hexapod&mi=0.2&off=RF.LH; what is missing or wrong is the default. */
 export function parsed(data, hash) {

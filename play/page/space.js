@@ -52,7 +52,7 @@ export function hull(points) {
 
 /** Looks at a point from a direction and a distance; perspective. */
 export class Camera {
-  constructor() { Object.assign(this, { azimuth: -1.02, elevation: 0.33, distance: 0.98, focus: [0, 0, 0] }); }
+  constructor() { Object.assign(this, { azimuth: -1.02, elevation: 0.33, distance: 0.98, heading: 0, focus: [0, 0, 0] }); }
 
   turn(dx, dy) {
     this.azimuth -= 0.008 * dx;
@@ -62,7 +62,7 @@ export class Camera {
 
   /** Begin a picture of a size [px] whose middle is (x, y). */
   aim(focus, x, y, scale) {
-    const [ca, sa, ce, se] = [Math.cos(this.azimuth), Math.sin(this.azimuth), Math.cos(this.elevation), Math.sin(this.elevation)];
+    const [ca, sa, ce, se] = [Math.cos(this.azimuth + this.heading), Math.sin(this.azimuth + this.heading), Math.cos(this.elevation), Math.sin(this.elevation)];
     const back = [ce * ca, ce * sa, se];
     this.right = [-sa, ca, 0];
     this.up = [-se * ca, -se * sa, ce];

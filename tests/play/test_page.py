@@ -33,6 +33,15 @@ WALKS: dict[str, dict[str, Any]] = {
 
 PROBE = (Path(__file__).parent / "probe.js").read_text(encoding="utf-8")
 
+WITHOUT = """<script>
+delete window.WebAssembly;
+window.apncProbe = () => ({
+  still: document.body.classList.contains("still"),
+  width: document.querySelector(".fallback img").naturalWidth,
+  main: getComputedStyle(document.querySelector("main")).display,
+});
+</script>"""
+
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -78,6 +87,15 @@ def test_page_is_one_small_file_that_loads_nothing(page: Path) -> None:
 def test_page_asks_the_network_for_nothing(seen: dict[str, Any]) -> None:
     assert [name for name in seen["requests"] if not name.startswith("data:")] == []
     assert not seen["still"]
+
+
+@needs_browser
+def test_a_picture_stands_in_where_webassembly_is_missing(page: Path, tmp_path: Path) -> None:
+    without, log = look(page, tmp_path, WITHOUT)
+    assert console_lines(log) == []
+    assert without["still"]
+    assert without["width"] > 0  # of the picture: it could be read
+    assert without["main"] == "none"
 
 
 @needs_browser
