@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from apnc.cli import build, export_robot, gait, info, study, system, walk
+from apnc.cli import build, export_robot, gait, import_robot, info, study, system, walk
 from apnc_core import __version__
 
 app = typer.Typer(
@@ -14,7 +14,7 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # it would eat the [s] and [m] of the help texts
-    help="Adaptive neural control for legged robots: build the FMU, walk a robot under it.",
+    help="Adaptive neural control for legged robots. Build the FMU, and walk a robot under it.",
 )
 app.command("walk")(walk.walk)
 app.command("build")(build.build)
@@ -24,6 +24,7 @@ app.command("info")(info.info)
 app.add_typer(gait.app, name="gait")
 app.add_typer(study.app, name="study")
 app.command("export-robot")(export_robot.export_robot)
+app.command("import-robot")(import_robot.import_robot)
 
 
 @app.callback(invoke_without_command=True)

@@ -20,31 +20,47 @@ _CONTROLLERS: Final = ", ".join(CONTROLLERS)
 
 def build(
     output: Annotated[Path, file_option("File to write.")] = Path("Apnc.fmu"),
-    legs: Annotated[int | None, Option(help="Number of legs; the robot's, or 4.")] = None,
+    legs: Annotated[
+        int | None, Option(help="Number of legs. Default: those of the robot, or 4.")
+    ] = None,
     robot: Annotated[
-        str | None, Option(help="Name or file; the shipped one of so many legs.")
+        str | None,
+        Option(help="Robot name or TOML file. Default: the shipped robot with --legs legs."),
     ] = None,
-    naming: Annotated[str, Option(help="structured, flat: leg[1].grf, leg1_grf.")] = "structured",
-    fmi: Annotated[int, Option(help="Version of the standard, 2 or 3.")] = 2,
+    naming: Annotated[
+        str, Option(help="Names of variables: structured (leg[1].grf) or flat (leg1_grf).")
+    ] = "structured",
+    fmi: Annotated[int, Option(help="Version of the FMI standard, 2 or 3.")] = 2,
     platform: Annotated[
-        list[str] | None, Option(help="As win64; host; all if omitted; repeatable.")
+        list[str] | None,
+        Option(help="Platform such as win64, or host. May be repeated. Default: all."),
     ] = None,
-    preset: Annotated[str, Option(help="At the start: robot, lilibot, paper.")] = "robot",
+    preset: Annotated[str, Option(help="Start values of robot, lilibot or paper.")] = "robot",
     setting: Annotated[
-        list[str] | None, Option("--set", help="NAME=VALUE at the start; repeatable.")
+        list[str] | None,
+        Option("--set", help="Start value NAME=VALUE of a parameter. May be repeated."),
     ] = None,
     params: Annotated[
-        Path | None, Option("--params", "--parameters", help="SSV, TOML, JSON.")
+        Path | None,
+        Option(
+            "--params",
+            "--parameters",
+            help="File of start values: summary.json, SSV, JSON or TOML.",
+        ),
     ] = None,
-    gait: Annotated[Path | None, Option(help="Stored gait at the start.")] = None,
-    controller: Annotated[str | None, Option(help=f"{_CONTROLLERS} at the start.")] = None,
-    enumerations: Annotated[str, Option(help="enumeration, integer.")] = "enumeration",
-    reals: Annotated[bool, Option("--reals", help="Every variable as a Real.")] = False,
+    gait: Annotated[Path | None, Option(help="File of a stored gait to start with.")] = None,
+    controller: Annotated[
+        str | None, Option(help=f"Controller to start with, one of {_CONTROLLERS}.")
+    ] = None,
+    enumerations: Annotated[
+        str, Option(help="How enumerations are declared: enumeration or integer.")
+    ] = "enumeration",
+    reals: Annotated[bool, Option("--reals", help="Declare every variable as a Real.")] = False,
     release: Annotated[
-        Path | None, Option(help="Folder for all files of a release instead.")
+        Path | None, Option(help="Folder to write all files of a release to, in place of one FMU.")
     ] = None,
 ) -> None:
-    """Build the FMU."""
+    """Build the FMU of the controller."""
     from apnc.loop.experiment import OWN_PRESET
     from apnc.loop.gait import read_gait
     from apnc.loop.parameters import read_parameters
@@ -87,7 +103,7 @@ def build(
 
 
 def platform_names(words: list[str] | None) -> tuple[str, ...]:
-    """Platforms by name; ``all`` and ``host`` stand for what they say, nothing for all."""
+    """Names of platforms, with ``all`` and ``host`` resolved. No word means all."""
     from build_fmu.options import PLATFORMS, host_platform
 
     short = {"all": PLATFORMS, "host": [host_platform()] if "host" in (words or ()) else []}
@@ -98,7 +114,13 @@ def platform_names(words: list[str] | None) -> tuple[str, ...]:
 def _of_robot(
     name: str | None, legs: int | None, *, own: bool
 ) -> tuple[tuple[str, ...], dict[str, SettingLike]]:
-    """Names of the legs, and weight and preset of the robot that is named or else shipped."""
+    """Names of the legs and start values of a robot: its weight and its own preset.
+
+    Args:
+        name: of the robot, or None for the shipped one with ``legs`` legs.
+        legs: number of legs, or None for that of the robot.
+        own: whether the preset of the robot is taken.
+    """
     from apnc_core.legs import leg_names
     from apnc_core.schema import MAX_LEGS
     from apnc_core.variables import variable_named

@@ -16,19 +16,26 @@ FORMATS: Final = ("mjcf", "urdf")
 
 
 def export_robot(
-    form: Annotated[str, Option("--format", help="mjcf, urdf.")] = "mjcf",
-    robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
+    form: Annotated[str, Option("--format", help="Format of the file: mjcf or urdf.")] = "mjcf",
+    robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
     output: Annotated[
-        str | None, Option(metavar="<path>", help="File, or folder/ for ROBOT.xml, ROBOT.urdf.")
+        str | None,
+        Option(
+            metavar="<path>",
+            help="File to write, or folder/ to write ROBOT.xml or ROBOT.urdf into.",
+        ),
     ] = None,
     servo: Annotated[
-        str | None, Option(help="Of MJCF: position, dcmotor; position if omitted.")
+        str | None, Option(help="Actuators of MJCF: position or dcmotor. Default: position.")
     ] = None,
     root: Annotated[
-        str | None, Option(help="Of URDF: trunk; or base, without mass, for KDL; trunk if omitted.")
+        str | None,
+        Option(
+            help="Root link of URDF: trunk, or base, which has no mass, for KDL. Default: trunk."
+        ),
     ] = None,
 ) -> None:
-    """Write a robot as MJCF (MuJoCo) or URDF (ROS): masses, joints, servos, feet, sensors."""
+    """Write a robot as MJCF for MuJoCo, or as URDF for ROS."""
     from apnc_plant.robot import load_robot
     from apnc_plant.robot.names import plain_name
     from build_fmu.writing import write_atomically
@@ -36,9 +43,9 @@ def export_robot(
     if form not in FORMATS:
         raise ValueError(f"format '{form}' is not one of {', '.join(FORMATS)}")
     if form == "urdf" and servo is not None:
-        raise ValueError(f"servo '{servo}' is of MJCF; URDF has limits of a joint only")
+        raise ValueError(f"servo = {servo}; allowed with format mjcf only")
     if form == "mjcf" and root is not None:
-        raise ValueError(f"root '{root}' is of URDF; the trunk of MJCF has a free joint")
+        raise ValueError(f"root = {root}; allowed with format urdf only")
     apart({"--output": None if output is None else Path(output)}, given(robot=robot))
     own = load_robot(robot)
     if form == "urdf":
@@ -58,6 +65,6 @@ def export_robot(
 
 
 def _file(output: str, name: str) -> Path:
-    """The file that is meant by ``output``: itself, or in a folder one of this name."""
+    """The file that ``output`` names, or the file ``name`` in it if it is a folder."""
     folder = output.endswith(("/", os.sep)) or Path(output).is_dir()
     return Path(output, name) if folder else Path(output)

@@ -22,10 +22,13 @@ app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Save and sh
 
 @app.command("save")
 def save(
-    run: Annotated[Path, typer.Argument(help="Output folder of a walk.")],
+    run: Annotated[Path, typer.Argument(help="Output folder of apnc walk.")],
     file: Annotated[Path, typer.Argument(help="Gait file to write.", parser=file_path)],
     form: Annotated[
-        str, typer.Option("--format", help="json for apnc walk, ssv for tools of SSP.")
+        str,
+        typer.Option(
+            "--format", help="Format of the file: json for apnc walk, or ssv for tools of SSP."
+        ),
     ] = "json",
 ) -> None:
     """Write the gait that the couplings hold at the end of a walk."""

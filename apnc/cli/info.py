@@ -1,4 +1,4 @@
-"""``apnc info``: what an FMU is and what it connects to."""
+"""``apnc info``: version, platforms and interface of an FMU."""
 # ruff: noqa: PLC0415  # what takes long to import waits until it is needed
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from apnc.cli.console import show_table, status
 
 
 def info(
-    fmu: Annotated[Path | None, typer.Argument(help="An FMU; the built one if omitted.")] = None,
+    fmu: Annotated[Path | None, typer.Argument(help="FMU file. Default: the built one.")] = None,
 ) -> None:
     """Show version, platforms and interface of an FMU for co-simulation, FMI 2.0 or 3.0."""
     with status("reading"):

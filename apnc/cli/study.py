@@ -18,7 +18,7 @@ from apnc.cli.console import bar, say, writable
 from apnc.cli.interrupt import STOP, Interrupted
 from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry, Registry
 
-_ABOUT: Final = {ROBOT: "Its name or file."}
+_ABOUT: Final = {ROBOT: "Robot name or TOML file. Default: that of the study."}
 
 _ENDED: Final = {"error": "ended with an error"}
 _BY_NAME: Final = inspect.Parameter.KEYWORD_ONLY
@@ -27,7 +27,9 @@ TRIAL_FAILED: Final = 1
 """Exit code if a trial ended with an error."""
 
 app = typer.Typer(
-    no_args_is_help=True, rich_markup_mode=None, help="Run a study: its table, figures and claims."
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    help="Run a study and write its table, figures and claims.",
 )
 
 
@@ -39,8 +41,8 @@ def command_of(
     Args:
         name: of the study, or ``all``.
         axes: its options besides those that all studies have.
-        studies: where the name is looked up.
-        folder: for the results unless another is asked for.
+        studies: registry in which the name is looked up.
+        folder: default folder for the results.
     """
 
     def command(**options: Any) -> None:
@@ -51,15 +53,25 @@ def command_of(
         return inspect.Parameter(name, _BY_NAME, default=default, annotation=form)
 
     parameters = [
-        option("trials", int, 20, "Seeds per cell of the grid."),
-        option("duration", float | None, None, "Simulated time of a trial [s]."),
-        option("workers", int | None, None, "Threads; all cores if omitted."),
-        option("scheduler", str | None, None, "Address of a Dask scheduler, tcp://..."),
+        option("trials", int, 20, "Number of seeds per cell of the grid."),
+        option(
+            "duration",
+            float | None,
+            None,
+            "Simulated time of a trial [s]. Default: that of the study.",
+        ),
+        option("workers", int | None, None, "Number of threads. Default: all cores."),
+        option("scheduler", str | None, None, "Address of a Dask scheduler, as tcp://host:8786."),
         option("output", Path, Path(folder), "Folder for the results."),
-        option("resume", bool, False, "Finish an interrupted study."),
+        option("resume", bool, False, "Continue the study in the output folder."),
         option("series", bool, False, "Keep the record of every trial."),
         *(
-            option(axis, str | None, None, _ABOUT.get(axis, "Some of all, separated by commas."))
+            option(
+                axis,
+                str | None,
+                None,
+                _ABOUT.get(axis, "Values to run, separated by commas. Default: all."),
+            )
             for axis in axes
         ),
     ]
@@ -96,7 +108,7 @@ def _run(
 
 
 def about(entry: Entry) -> str:
-    """What a study is, in a line."""
+    """Title of a study and where the paper has it, in one line."""
     return f"{entry.title} ({entry.section or 'not in the paper'})"
 
 

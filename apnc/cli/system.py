@@ -13,23 +13,26 @@ from apnc.cli.console import say, status, writable
 from apnc.controllers import CONTROLLERS
 
 _CONTROLLERS = ", ".join(CONTROLLERS)
-_NAMING = "structured, flat: leg[1].grf, leg1_grf."
+_NAMING = "Names of variables: structured (leg[1].grf) or flat (leg1_grf)."
 
 
 def build_plant(
-    robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
+    robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
     output: Annotated[
-        Path | None, Option(help="File to write; LilibotPlant.fmu if omitted.")
+        Path | None, Option(help="File to write. Default: the robot's name, LilibotPlant.fmu.")
     ] = None,
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
-    fmi: Annotated[int, Option(help="Version of the standard, 2 or 3.")] = 2,
+    fmi: Annotated[int, Option(help="Version of the FMI standard, 2 or 3.")] = 2,
     platform: Annotated[
-        list[str] | None, Option(help="As win64; host; all if omitted; repeatable.")
+        list[str] | None,
+        Option(help="Platform such as win64, or host. May be repeated. Default: all."),
     ] = None,
-    enumerations: Annotated[str, Option(help="enumeration, integer.")] = "enumeration",
-    reals: Annotated[bool, Option("--reals", help="Every variable as a Real.")] = False,
+    enumerations: Annotated[
+        str, Option(help="How enumerations are declared: enumeration or integer.")
+    ] = "enumeration",
+    reals: Annotated[bool, Option("--reals", help="Declare every variable as a Real.")] = False,
 ) -> None:
-    """Build the robot as an FMU, in C: it needs no Python where it runs."""
+    """Build the robot as an FMU. It is plain C and needs no Python where it runs."""
     from apnc.cli.build import platform_names
     from apnc.system.plant_fmu import PlantBuild, plant_fmu, plant_model
     from build_fmu.writing import write_atomically
@@ -44,27 +47,40 @@ def build_plant(
 
 def build_system(
     context: Context,
-    output: Annotated[Path | None, Option(help="Archive to write; Lilibot.ssp if omitted.")] = None,
-    robot: Annotated[str, Option(help="Name or TOML file.")] = "lilibot",
+    output: Annotated[
+        Path | None, Option(help="Archive to write. Default: the robot's name, Lilibot.ssp.")
+    ] = None,
+    robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
     mi: Annotated[float, Option(help="Modulatory input at the start.")] = 0.08,
-    seed: Annotated[int, Option(help="Of noise, asymmetry and obstacles.")] = 0,
-    condition: Annotated[str, Option(help="C1 to C4, S1 to S3.")] = "C1",
-    payload: Annotated[float, Option(help="Box on the trunk, on top of the condition's [kg].")] = 0,
-    roughness: Annotated[float | None, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
-    slope: Annotated[float | None, Option(help="Rise of the ground along x [deg].")] = None,
-    turn: Annotated[float, Option(help="-1 right ... 1 left.")] = 0.0,
-    controller: Annotated[str, Option(help=f"{_CONTROLLERS}.")] = "apnc",
-    preset: Annotated[str, Option(help="robot, lilibot, paper.")] = "robot",
-    rate: Annotated[float, Option(help="Update rate [Hz].")] = 60.0,
-    setting: Annotated[
-        list[str] | None, Option("--set", help="NAME=VALUE; servo.stiffness=20 too.")
+    seed: Annotated[int, Option(help="Seed of noise, asymmetry and obstacles.")] = 0,
+    condition: Annotated[str, Option(help="Condition, C1 to C4 or S1 to S3.")] = "C1",
+    payload: Annotated[
+        float, Option(help="Box on the trunk besides that of the condition [kg].")
+    ] = 0,
+    roughness: Annotated[
+        float | None, Option(help="Roughness of the paper's obstacles [0 ... 1].")
     ] = None,
-    gait: Annotated[Path | None, Option(help="Stored gait to start with.")] = None,
+    slope: Annotated[float | None, Option(help="Rise of the ground along x [deg].")] = None,
+    turn: Annotated[float, Option(help="Steering, -1 right ... 1 left.")] = 0.0,
+    controller: Annotated[str, Option(help=f"Controller, one of {_CONTROLLERS}.")] = "apnc",
+    preset: Annotated[str, Option(help="Parameters of robot, lilibot or paper.")] = "robot",
+    rate: Annotated[float, Option(help="Update rate of the controller [Hz].")] = 60.0,
+    setting: Annotated[
+        list[str] | None,
+        Option(
+            "--set",
+            help="NAME=VALUE of controller or robot, as servo.stiffness=20. May be repeated.",
+        ),
+    ] = None,
+    gait: Annotated[Path | None, Option(help="File of a stored gait to start with.")] = None,
     duration: Annotated[float, Option(help="End of the default experiment [s].")] = 45.0,
-    platform: Annotated[list[str] | None, Option(help="As for build; this one if omitted.")] = None,
+    platform: Annotated[
+        list[str] | None,
+        Option(help="Platform such as win64, all or host. May be repeated. Default: host."),
+    ] = None,
 ) -> None:
-    """Build controller and robot, connected: an SSP archive, and a folder for other tools."""
+    """Build a system of controller and robot: an SSP archive, and a folder for other tools."""
     from apnc.cli.build import platform_names
     from apnc.cli.walk import experiment_of
     from apnc.system.build import build_system as build

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 ENDED_EARLY: Final = 1
 """Exit code of a run that fell or diverged."""
 
-_OVER: Final = (
+_SCHEDULES: Final = (
     ("mi", "mi", float),
     ("turn", "turn", float),
     ("reset", "reset", {"true": True, "false": False}.__getitem__),
@@ -52,45 +52,66 @@ _NAMED: Final = ", ".join(CONDITIONS)
 
 def walk(
     context: typer.Context,
-    robot: Annotated[str | None, Option(help="Name or TOML file; lilibot if omitted.")] = None,
-    mi: Annotated[str | None, Option(help="Modulatory input *; 0.08 if omitted.")] = None,
-    duration: Annotated[float | None, Option(help="Simulated time [s]; 45.0 if omitted.")] = None,
-    seed: Annotated[int | None, Option(help="Of noise and asymmetry; 0 if omitted.")] = None,
+    robot: Annotated[str | None, Option(help="Robot name or TOML file. Default: lilibot.")] = None,
+    mi: Annotated[str | None, Option(help="Modulatory input *. Default: 0.08.")] = None,
+    duration: Annotated[float | None, Option(help="Simulated time [s]. Default: 45.0.")] = None,
+    seed: Annotated[int | None, Option(help="Seed of noise and asymmetry. Default: 0.")] = None,
     controller: Annotated[
-        str | None, Option(help=f"{_CONTROLLERS}; apnc, or the method of --fmu, if omitted.")
+        str | None, Option(help=f"One of {_CONTROLLERS}. Default: apnc, or what --fmu starts with.")
     ] = None,
-    preset: Annotated[str | None, Option(help="robot, lilibot, paper; robot if omitted.")] = None,
+    preset: Annotated[
+        str | None, Option(help="Parameters of robot, lilibot or paper. Default: robot.")
+    ] = None,
     setting: Annotated[
-        list[str] | None, Option("--set", help="Parameter, NAME=VALUE; repeatable.")
+        list[str] | None,
+        Option("--set", help="NAME=VALUE of a parameter of the controller. May be repeated."),
     ] = None,
-    params: Annotated[Path | None, Option(help="summary.json, SSV, JSON or TOML file.")] = None,
-    gait: Annotated[Path | None, Option(help="Stored gait to start with.")] = None,
-    ground: Annotated[str | None, Option(help="KIND:NAME=VALUE,... as in docs/using.md.")] = None,
-    roughness: Annotated[float | None, Option(help="Of the paper's obstacles [0 ... 1].")] = None,
+    params: Annotated[
+        Path | None, Option(help="File of parameters: summary.json, SSV, JSON or TOML.")
+    ] = None,
+    gait: Annotated[Path | None, Option(help="File of a stored gait to start with.")] = None,
+    ground: Annotated[
+        str | None, Option(help="Ground, as kerb:height=0.006. Default: plane.")
+    ] = None,
+    roughness: Annotated[
+        float | None, Option(help="Roughness of the paper's obstacles [0 ... 1].")
+    ] = None,
     slope: Annotated[float | None, Option(help="Rise of the ground along x [deg].")] = None,
-    condition: Annotated[str | None, Option(help=f"{_NAMED} *; C1 if omitted.")] = None,
-    turn: Annotated[str | None, Option(help="-1 right ... 1 left *; 0.0 if omitted.")] = None,
-    reset: Annotated[str | None, Option(help="Hold at the start: true, false *.")] = None,
-    rate: Annotated[float | None, Option(help="Update rate [Hz]; 60.0 if omitted.")] = None,
-    step: Annotated[float | None, Option(help="Longest integration step [s].")] = None,
+    condition: Annotated[
+        str | None, Option(help=f"Condition, one of {_NAMED} *. Default: C1.")
+    ] = None,
+    turn: Annotated[
+        str | None, Option(help="Steering, -1 right ... 1 left *. Default: 0.0.")
+    ] = None,
+    reset: Annotated[
+        str | None,
+        Option(help="Whether the controller is held in its start state *. Default: false."),
+    ] = None,
+    rate: Annotated[
+        float | None, Option(help="Update rate of the controller [Hz]. Default: 60.0.")
+    ] = None,
+    step: Annotated[float | None, Option(help="Longest integration step of the plant [s].")] = None,
     engine: Annotated[
-        str | None, Option(help="exudyn, mujoco, compiled; exudyn if omitted.")
+        str | None, Option(help="exudyn, mujoco or compiled. Default: exudyn.")
     ] = None,
     fmu: Annotated[
-        str | None, Option(help="Of one's own; its start values hold unless set.")
+        str | None,
+        Option(help="FMU file in place of the built one. Its start values hold unless set here."),
     ] = None,
     output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),
     json_file: Annotated[
-        Path | None, file_option("Write the summary here as well.", "--json")
+        Path | None, file_option("File to write the summary to as well.", "--json")
     ] = None,
     mcap: Annotated[
-        Path | None, file_option("An MCAP log to write (Foxglove, PlotJuggler).")
+        Path | None, file_option("MCAP log to write, for Foxglove or PlotJuggler.")
     ] = None,
 ) -> None:
-    """Walk a robot under the FMU; write summary.json, record.csv and report.html.
+    """Walk a robot under the FMU and write summary.json, record.csv and report.html.
 
-    An option marked * takes a value, or steps over time: --mi 0:0.15,25:0.4 changes at 25 s.
-    Exit code 0 if the walk came to its planned end, 1 if the robot fell or its motion diverged.
+    An option marked * takes one value, or steps over time: --mi 0:0.15,25:0.4 changes at 25 s.
+
+    The exit code is 0 if the walk came to its planned end, and 1 if the robot fell or its motion
+    diverged.
     """
     with status("starting"):
         read = given(robot=robot, params=params, gait=gait, fmu=fmu)
@@ -133,21 +154,21 @@ def walk(
 
 
 def _log_path(mcap: Path) -> Path:
-    """The path of an MCAP log, before anything is computed: the extra is there, and the folder."""
+    """The path of an MCAP log, after a check that the extra is installed and the folder there."""
     if importlib.util.find_spec("mcap_ros2") is None:
         raise ValueError(f"--mcap needs the extra 'mcap': {install_command('mcap')}")
     return writable(mcap, file=True)
 
 
 def experiment_of(options: Mapping[str, Any]) -> Experiment:
-    """The experiment that options of ``apnc walk`` mean; one left out, or None, is the default.
+    """The experiment that options of ``apnc walk`` describe. None stands for an option left out.
 
     Raises:
         ValueError: a value that is not understood or not allowed.
     """
     said = {name: value for name, value in options.items() if value is not None}
     given = {f.name: said[f.name] for f in fields(apnc.Experiment) if f.name in said}
-    for name, option, convert in _OVER:
+    for name, option, convert in _SCHEDULES:
         if option in said:
             given[name] = parse_schedule(option, said[option], convert)
     given |= _ground(*map(said.get, ("ground", "roughness", "slope", "seed")))

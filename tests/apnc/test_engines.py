@@ -82,9 +82,9 @@ def test_a_robot_is_exported_into_a_folder(
     ("words", "message"),
     [
         (["--format", "sdf"], "format 'sdf' is not one of mjcf, urdf"),
-        (["--format", "urdf", "--servo", "dcmotor"], "servo 'dcmotor' is of MJCF"),
+        (["--format", "urdf", "--servo", "dcmotor"], "servo = dcmotor; allowed with format mjcf only"),
         (["--format", "urdf", "--root", "cow"], "root 'cow' is not one of trunk, base"),
-        (["--root", "base"], "root 'base' is of URDF"),
+        (["--root", "base"], "root = base; allowed with format urdf only"),
         (["--robot", "cow"], "robot 'cow' is unknown"),
     ],
 )

@@ -7,6 +7,7 @@ import math
 import re
 import shlex
 import tempfile
+from dataclasses import fields
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -101,6 +102,10 @@ def test_the_command_of_an_experiment_says_it_again(experiment: Experiment) -> N
     assert Experiment.from_dict(json.loads(json.dumps(experiment.to_dict()))) == experiment
 
 
+FIELDS = {f.name: f.name for f in fields(Experiment)} | {"condition": "conditions"}
+"""Field of an experiment by the name of its option."""
+
+
 @pytest.mark.parametrize("robot", ["hexapod", "own.toml"])
 def test_robots_by_name_and_by_file(
     robot: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -116,9 +121,9 @@ def test_robots_by_name_and_by_file(
 def test_no_option_is_the_default_experiment_and_the_help_tells_its_values() -> None:
     assert said() == Experiment()
     for parameter in COMMAND.params:
-        if told := re.search(r"([\w.]+) if omitted", parameter.help or ""):
-            field = {"condition": "conditions"}.get(parameter.name, parameter.name)
-            assert told[1] == str(getattr(Experiment(), field)), parameter.name
+        if parameter.name in FIELDS and (told := re.search(r"Default: ([\w.]*\w)", parameter.help)):
+            value = getattr(Experiment(), FIELDS[parameter.name])
+            assert told[1].lower() == getattr(value, "kind", str(value).lower()), parameter.name
 
 
 def test_short_forms_of_the_ground() -> None:
