@@ -31,7 +31,7 @@ FAILED: Final = 10.0
 
 WALK_S: Final = 15.0
 LAST_S: Final = 7.0
-"""Length of a walk [s], and of its end on which the feet, the speed and the turn are judged."""
+"""Length of a walk [s], and of its last part, in which feet, speed and turn are measured [s]."""
 
 BANDS: Final = {
     4: (
@@ -50,49 +50,49 @@ RATES: Final = (25.0, 45.0, 15.0, 30.0, 20.0, 10.0)
 """Update rates [Hz], in turn."""
 
 WANTED_LIFT: Final = 0.0075
-"""Lift of every foot in mid-swing that is asked for [m]; the aim of 6 mm, and a margin."""
+"""Lift of every foot in mid-swing without cost [m]: the aim of 6 mm and a margin."""
 
 WANTED_SLIP: Final = 0.10
-"""Slip per stride over the stride that is allowed [1]; the aim of 0.12, and a margin."""
+"""Slip per stride over the stride length without cost [1]: the aim of 0.12 and a margin."""
 
 WANTED_TURN: Final = math.radians(10.0) / 45.0
-"""Turning rate of a straight walk from which on it costs noticeably [rad/s]."""
+"""Scale of the cost of the turning rate of a straight walk [rad/s]."""
 
 WANTED_STEERING: Final = 0.29
-"""Turning rate asked for at half steering [rad/s]; the aim of 0.25, and a margin."""
+"""Turning rate at half steering without cost [rad/s]: the aim of 0.25 and a margin."""
 
 WANTED_RATIO: Final = 2.0
-"""Speed at MI 0.4 over that at MI 0.15 that is asked for [1]; the paper's."""
+"""Speed at MI 0.4 over that at MI 0.15 without cost [1]: the paper's."""
 
 MARGIN: Final = 0.93
-"""Share of the learning rates with which an oscillator under a stuck load must still stop [1]."""
+"""Factor on the learning rates at which an oscillator under a stuck load must still stop [1]."""
 
 HELD_AT: Final = 0.05
-"""Height over its start at which a robot hangs [m]: no foot reaches the ground."""
+"""Height above its start at which the robot is held [m]. No foot reaches the ground."""
 
 STUCK_AT: Final = 5.0
-"""When its sensors stick [s]."""
+"""Time at which the sensors of the held robot stick [s]."""
 
 MEMORY: Final = Timeline(lowered=0.0, broken=3.0, stopped=8.0, restarted=9.0, end=17.0)
 
 INEXACT: Final = (0.16, -0.09, 0.12, -0.05, 0.1, -0.12, 0.08)
-"""How far a stored gait is from the exact one [rad]; measured relations never are exact."""
+"""Difference of the stored gait from the exact one [rad]. Measured relations are never exact."""
 
 OTHERS: Final = ("ratio", "rate", "payload", "damage", "memory", "steering", "blocked")
 
 
 def names(n_legs: int) -> tuple[str, ...]:
-    """Names of the costs of a candidate: formation and feet at every band's MI, then ``OTHERS``."""
+    """Names of the costs: formation at the MI of each band, feet at the same, then ``OTHERS``."""
     bands = [f"{band[0]:.2f}" for band in BANDS[n_legs]]
     return (*(f"mi_{mi}" for mi in bands), *(f"feet_{mi}" for mi in bands), *OTHERS)
 
 
 Figures = Mapping[str, float]
-"""Costs, and speeds [m/s] of which costs are made, by name."""
+"""Costs [1], and speeds [m/s] from which costs are made, by name."""
 
 
 class Task(NamedTuple):
-    """A run of a candidate, and what is taken of its record."""
+    """A run of a candidate, and the function that takes figures of its record."""
 
     experiment: Experiment
     judge: Callable[[Record], Figures]
@@ -105,12 +105,14 @@ def costs_of(
     controller: str = "apnc",
     workers: int = 1,
 ) -> list[tuple[float, ...]]:
-    """Costs of candidates, by ``names``; ``FAILED`` in all of one that cannot be run.
+    """Costs of candidates in the order of ``names``.
+
+    All costs of a candidate that cannot be run are ``FAILED``.
 
     Args:
-        candidates: what is tried, all with the same seeds.
-        seed: of their runs.
-        robot_name: of the robot.
+        candidates: candidates, all of which run with the same seeds.
+        seed: seed of their runs.
+        robot_name: name of the robot.
         controller: name of the controller.
         workers: threads.
     """
@@ -140,7 +142,7 @@ def costs_of(
 
 
 def costs(found: Figures, n_legs: int) -> tuple[float, ...]:
-    """Costs by ``names`` of the figures of all runs; 0 for what was not asked of the robot."""
+    """Costs in the order of ``names``, of the figures of all runs. 0 for runs that are not made."""
     own = dict(found)
     if (fast := own.get(_speed(FASTEST))) is not None:
         own["ratio"] = 1.5 * ratio_cost(own[_speed(SCHEDULE_MI)], fast)
@@ -156,8 +158,8 @@ def tasks(
 ) -> Iterator[Task]:
     """The runs of a candidate.
 
-    Memory, steering and a blocked oscillator are asked of APNC alone; payload, the fast walk, other
-    update rates and steering of four legs alone.
+    Memory, steering and a blocked oscillator are run for APNC only. Payload, the fast walk, other
+    update rates and steering are run for four legs only.
 
     Raises:
         ValueError: numbers that are no robot, or no parameters of the controller.
@@ -221,7 +223,7 @@ def _walk_of(band: float) -> Callable[[Record], Figures]:
 
 
 class _Late:
-    """The end of a walk: speed [m/s], turning rate [rad/s], and the feet."""
+    """Figures of the last part of a walk: speed [m/s], turning rate [rad/s], and the feet."""
 
     def __init__(self, record: Record) -> None:
         time, yaw = record.time, record.signals["rpy"][:, 2]
@@ -233,7 +235,7 @@ class _Late:
         self.turning = turned / float(time[-1] - time[part][0])
 
     def foot_costs(self) -> float:
-        """Feet that lift, do not slip and touch once, sum over the legs and three figures."""
+        """Sum over the legs of the costs of lift, slip and touch-downs."""
         stride = max(self.speed, 0.02) / (self.feet.stride_frequency or 1.0)
         feet = self.feet
         return (
@@ -248,7 +250,7 @@ def _sum(figures: Sequence[float | None], cost: Callable[[float], float]) -> flo
 
 
 def formation_cost(record: Record) -> float:
-    """How far from an early, exact gait, the one expected of so many legs."""
+    """Cost of a late or inexact gait. The gait is the one expected for the number of legs."""
     error = _error(record, slice(None))
     last = round(4.0 * record.experiment.rate)
     # far from the gait for long; and at the end not well inside the tolerance
@@ -257,31 +259,31 @@ def formation_cost(record: Record) -> float:
 
 
 def walk_cost(record: Record) -> float:
-    """How far from the gait, and from walking."""
+    """Cost of formation and of a slow walk."""
     slow = min(1.0, max(0.0, 0.06 + 0.1 * _mi(record) - walk_speed(record)) / 0.05)
     return formation_cost(record) + slow
 
 
 def feet_cost(record: Record) -> float:
-    """How far from walking straight on feet that lift and hold."""
+    """Cost of the feet and of a turn."""
     late = _Late(record)
     turning = 0.35 * math.log1p(abs(late.turning) / WANTED_TURN)
     return 1.4 * late.foot_costs() / len(record.legs) + turning
 
 
 def walk_speed(record: Record) -> float:
-    """Mean speed along the heading at the end [m/s]; 0 of a run that did not get there."""
+    """Mean speed along the heading at the end [m/s]. 0 for a run that is not complete."""
     return _Late(record).speed if record.complete else 0.0
 
 
 def payload_cost(record: Record) -> float:
-    """How far from a gait that walks under the payload."""
+    """Cost of formation and of a slow walk with the payload."""
     slow = min(1.0, max(0.0, 0.05 - _Late(record).speed) / 0.05)
     return formation_cost(record) + slow
 
 
 def damage_cost(record: Record) -> float:
-    """How far from a walk on three legs in which every oscillator runs."""
+    """Cost of stopped oscillators and of a slow walk with a damaged leg."""
     last = round(4.0 * record.experiment.rate)
     moved = np.ptp(record.signals["o1"][-last:], axis=0)
     stopped = float(np.clip(1.0 - moved, 0.0, 1.0).sum())
@@ -289,12 +291,12 @@ def damage_cost(record: Record) -> float:
 
 
 def ratio_cost(slow: float, fast: float) -> float:
-    """How far from twice the speed at MI 0.4."""
+    """Cost of less than twice the speed at MI 0.4."""
     return min(2.0, max(0.0, WANTED_RATIO - fast / max(slow, 0.02)))
 
 
 def memory_cost(record: Record) -> float:
-    """How far S2 and S3 with a stored gait are from the paper's."""
+    """Cost of a lost gait or a slow walk in S2 and S3, with a stored gait."""
     found, cost = judge(record, MEMORY), 0.0
     for begin, end, state in ((3.5, 8.0, "speed_s2"), (14.0, 17.0, "speed_s3")):
         error = _error(record, slice(int(begin * 60), int(end * 60)))
@@ -311,7 +313,7 @@ STEERING: Final[Mapping[str, Any]] = {
 
 
 def steering_cost(record: Record) -> float:
-    """How far from turning briskly, and alike, to either side, with a stored gait."""
+    """Cost of slow or unequal turns to both sides, with a stored gait."""
     turned = np.unwrap(record.signals["rpy"][:, 2])[[270, 449, 540, 719]]
     left, right = float(turned[1] - turned[0]) / 3.0, float(turned[2] - turned[3]) / 3.0
     slow = sum(min(2.0, max(0.0, 1.0 - rate / WANTED_STEERING)) for rate in (left, right))
@@ -319,9 +321,9 @@ def steering_cost(record: Record) -> float:
 
 
 def blocked(robot: RobotDescription, settings: Mapping[str, float]) -> Experiment:
-    """No foot feels a load, until all sensors stick at 0.9; the robot hangs, nothing moves it.
+    """A robot that is held in the air. Its feet feel no load until all sensors stick at 0.9.
 
-    The learning rates are a little lower than the candidate's, and there are no couplings.
+    The learning rates are those of the candidate times ``MARGIN``, and there are no couplings.
     """
     weaker = {name: settings[name] * MARGIN for name in ("B_f", "B_s") if name in settings}
     silent = Conditions(dropout=(ALL,), held_at=HELD_AT)
@@ -337,9 +339,9 @@ def blocked(robot: RobotDescription, settings: Mapping[str, float]) -> Experimen
 
 
 def blocked_cost(record: Record) -> float:
-    """Rate of the first oscillator once its load sticks, over its free rate; 0 if it stops.
+    """Cost of an oscillator that does not stop once its load sticks. 0 if it stops.
 
-    The rate falls towards the stop, so the search sees where to go.
+    The cost falls with the rate of the oscillator, so that the search finds the way to the stop.
     """
     o1 = record.signals["o1"][:, 0]
     free, stuck = o1[60:300], o1[-480:]

@@ -35,7 +35,7 @@ def measure(record: Record) -> Result:
     steps = steps_of(record.experiment.turn if turning else record.experiment.mi)
     starts = [start for start, _ in steps]
     yaw = np.unwrap(record.signals["rpy"][:, 2])
-    place = record.signals["position"]
+    position = record.signals["position"]
     found: Result = {}
     for i, end in enumerate([*starts[1:], record.experiment.duration]):
         begin, name = starts[i] + SETTLING, f"{YAW_RATE if turning else SPEED}_{i + 1}"
@@ -46,7 +46,9 @@ def measure(record: Record) -> Result:
         if turning:
             figure = (yaw[inside[-1]] - yaw[inside[0]]) / (end - begin)
         else:
-            figure = metrics.smoothed_speed(record.time[inside], place[inside], yaw[inside]).mean()
+            figure = metrics.smoothed_speed(
+                record.time[inside], position[inside], yaw[inside]
+            ).mean()
         found[name] = float(figure)
     return found
 
