@@ -38,7 +38,7 @@ class Condition(IntEnum):
 
 
 class LoadComponent(IntEnum):
-    """Which part of a force a foot sensor feels."""
+    """Part of the force on a foot that its sensor measures."""
 
     normal = 1
     norm = 2
@@ -51,7 +51,7 @@ ENUMERATIONS: Final = (
             "nothing is wrong",
             "noisy loads",
             "leg RF is damaged: its hip and knee are held at 0",
-            f"a payload of {PAYLOAD:g} kg, which cannot come or go between steps",
+            f"a payload of {PAYLOAD:g} kg, which cannot be added or removed between steps",
             "held in the air",
             "the sensors of legs RF and LF are stuck",
             "no sensor delivers a load",
@@ -63,7 +63,7 @@ _CONDITION, _COMPONENT = ENUMERATIONS
 
 
 def _input(name: str) -> Variable:
-    """A command: what the controller's output of this name is."""
+    """A command, with the properties of the controller's output of the same name."""
     return replace(
         controller_variable(name),
         causality=Causality.input,
@@ -87,7 +87,7 @@ _MOST_S: Final = 1.0
 
 _PARAMETERS: Final = (
     _fixed(
-        "seed", "chooses the asymmetry of the robot, the noise of its sensors and the obstacles",
+        "seed", "decides the asymmetry of the robot, the noise of its sensors and the obstacles",
         type=Type.integer, start=0, min=0, max=LARGEST_SEED),
     _fixed(
         "roughness", "height of the obstacles on the ground over the robot's step height; 0 for "
@@ -96,13 +96,13 @@ _PARAMETERS: Final = (
         "slope", "angle by which the ground rises along x",
         start=0.0, unit="rad", display_unit="deg", min=-1.5, max=1.5),
     _fixed(
-        "payload", "mass of a box on the trunk, on top of that of the condition",
+        "payload", "mass of a box on the trunk, added to that of the condition",
         start=0.0, unit="kg", min=0.0, max=100.0),
     _tunable(
         "condition", "what is wrong with the robot",
         type=Type.enumeration, enumeration=_CONDITION, start=Condition.C1.value),
     _fixed(
-        "step", "longest integration step; a step of the FMU is cut into equal parts",
+        "step", "longest integration step; a step of the FMU is divided into equal parts",
         start=PlantOptions().step, unit="s", min=1e-6, max=1 / 60),
     _tunable(
         "servo.stiffness", "torque of a servo per position error",
@@ -132,7 +132,7 @@ _PARAMETERS: Final = (
         "contact.stiffness", "normal force on a foot per depth",
         start=1e4, unit="N/m", min=1e-12, max=1e9),
     _tunable(
-        "contact.damping", "normal force per speed of approach, from the damping depth on",
+        "contact.damping", "normal force per approach speed, from the damping depth on",
         start=0.0, unit="N.s/m", min=0.0, max=1e9),
     _tunable(
         "contact.damping_depth", "depth over which the damping sets in",
@@ -147,18 +147,18 @@ _PARAMETERS: Final = (
         "sensor.delay", "age of a load when it arrives",
         start=0.0, unit="s", min=0.0, max=_MOST_S),
     _tunable(
-        "sensor.time_constant", "of the first-order low-pass of the loads; 0 for none",
+        "sensor.time_constant", "time constant of the low-pass of the loads; 0 for none",
         start=0.0, unit="s", min=0.0, max=1e3),
     _tunable(
         "sensor.noise", "standard deviation of the loads' noise over half the weight",
         start=0.0, unit="1", min=0.0, max=1e3),
     _tunable(
-        "sensor.component", "part of the force on a foot that its sensor feels",
+        "sensor.component", "part of the force on a foot that its sensor measures",
         type=Type.enumeration, enumeration=_COMPONENT, start=LoadComponent.normal.value),
 )  # fmt: skip
 
 PARTS: Final = ("servo", "contact", "sensor")
-"""Parts of a robot whose numbers are parameters, by the names of their fields."""
+"""Names of the parts of a robot whose numbers are parameters."""
 
 
 def _outputs(signal: Signal) -> list[Variable]:
@@ -195,7 +195,7 @@ TABLE: Final = (
 
 
 def starts_of(robot: RobotDescription) -> Mapping[str, tuple[Value, ...]]:
-    """Start values of a robot's own numbers, by name.
+    """Start values of the parameters that are numbers of a robot, by name.
 
     Args:
         robot: the robot.

@@ -13,7 +13,7 @@ typedef enum {
     PLANT_CONDITION_C1 = 1, /* nothing is wrong */
     PLANT_CONDITION_C2 = 2, /* noisy loads */
     PLANT_CONDITION_C3 = 3, /* leg RF is damaged: its hip and knee are held at 0 */
-    PLANT_CONDITION_C4 = 4, /* a payload of 1.25 kg, which cannot come or go between steps */
+    PLANT_CONDITION_C4 = 4, /* a payload of 1.25 kg, which cannot be added or removed between steps */
     PLANT_CONDITION_S1 = 5, /* held in the air */
     PLANT_CONDITION_S2 = 6, /* the sensors of legs RF and LF are stuck */
     PLANT_CONDITION_S3 = 7, /* no sensor delivers a load */
@@ -26,12 +26,12 @@ typedef enum {
 
 /* Parameters. */
 typedef struct {
-    int32_t seed; /* chooses the asymmetry of the robot, the noise of its sensors and the obstacles */
+    int32_t seed; /* decides the asymmetry of the robot, the noise of its sensors and the obstacles */
     double roughness; /* [1] height of the obstacles on the ground over the robot's step height; 0 for none */
     double slope; /* [rad] angle by which the ground rises along x */
-    double payload; /* [kg] mass of a box on the trunk, on top of that of the condition */
+    double payload; /* [kg] mass of a box on the trunk, added to that of the condition */
     int32_t condition; /* what is wrong with the robot */
-    double step; /* [s] longest integration step; a step of the FMU is cut into equal parts */
+    double step; /* [s] longest integration step; a step of the FMU is divided into equal parts */
     double servo_stiffness; /* [N.m/rad] torque of a servo per position error */
     double servo_damping; /* [N.m.s/rad] torque of a servo per joint speed */
     double servo_stall_torque; /* [N.m] largest torque of a servo */
@@ -41,14 +41,14 @@ typedef struct {
     double servo_slew_rate; /* [rad/s] fastest change of a command that a servo follows; 0 for no limit */
     double contact_foot_radius; /* [m] radius of the foot balls */
     double contact_stiffness; /* [N/m] normal force on a foot per depth */
-    double contact_damping; /* [N.s/m] normal force per speed of approach, from the damping depth on */
+    double contact_damping; /* [N.s/m] normal force per approach speed, from the damping depth on */
     double contact_damping_depth; /* [m] depth over which the damping sets in */
     double contact_friction; /* [1] Coulomb coefficient of the feet */
     double contact_friction_speed; /* [m/s] sliding speed below which friction is proportional to it */
     double sensor_delay; /* [s] age of a load when it arrives */
-    double sensor_time_constant; /* [s] of the first-order low-pass of the loads; 0 for none */
+    double sensor_time_constant; /* [s] time constant of the low-pass of the loads; 0 for none */
     double sensor_noise; /* [1] standard deviation of the loads' noise over half the weight */
-    int32_t sensor_component; /* part of the force on a foot that its sensor feels */
+    int32_t sensor_component; /* part of the force on a foot that its sensor measures */
 } plant_parameters;
 
 /* Inputs of one step. */
