@@ -6,6 +6,7 @@ import { LIGHT, bevelled, css, drawBall, drawFaces, drawLimb, rgb, shade, shadow
 
 const TILE = 0.2; // [m] edge of a tile that is drawn
 const REACH = 1.7; // [m] of the ground that is drawn
+const RINGS = 12; // steps in which the floor fades
 const PRINTS = 10; // [s] that footprints last
 const ARROW = 0.13; // [m] of the arrow of a load of half the weight
 const CALM = 0.15; // [s] by which the camera lags behind
@@ -102,28 +103,27 @@ export class Scene {
   onGround(x, y, z = 0) { return this.camera.see(turned(this.G, [x, y, z])); }
 
   floor([x, y], look) {
-    const { context: c } = this, count = Math.ceil(REACH / TILE);
+    const { context: c } = this, count = Math.ceil(REACH / TILE), colour = rgb(look.tile);
     const [i0, j0] = [Math.round(x / TILE), Math.round(y / TILE)];
-    const [cx, cy, , size] = this.onGround(x, y), flat = Math.max(0.3, Math.abs(Math.sin(this.camera.elevation)) * 1.15);
-    c.beginPath();
+    const rings = Array.from({ length: RINGS }, () => []); // of tiles that fade alike
     for (let i = i0 - count; i < i0 + count; i++) {
       for (let j = j0 - count; j < j0 + count; j++) {
-        if ((i + j) & 1) continue;
+        const away = Math.hypot((i + 0.5) * TILE - x, (j + 0.5) * TILE - y) / REACH;
+        if ((i + j) & 1 || away >= 1) continue;
         const seen = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([u, v]) => this.onGround(u * TILE, v * TILE));
-        if (seen.some((p) => p[2] < 0.08)) continue;
-        c.moveTo(seen[0][0], seen[0][1]);
-        for (const p of seen.slice(1)) c.lineTo(p[0], p[1]);
-        c.closePath();
+        if (seen.every((p) => p[2] > 0.08)) rings[Math.floor(RINGS * away)].push(seen);
       }
     }
-    const fading = c.createRadialGradient(0, 0, 0, 0, 0, REACH * size);
-    for (const [part, alpha] of [[0, 1], [0.35, 0.85], [1, 0]]) fading.addColorStop(part, css(rgb(look.tile), alpha));
-    c.save();
-    c.translate(cx, cy);
-    c.scale(1, flat);
-    c.fillStyle = fading;
-    c.fill();
-    c.restore();
+    rings.forEach((tiles, ring) => {
+      c.beginPath();
+      for (const [first, ...others] of tiles) {
+        c.moveTo(first[0], first[1]);
+        for (const p of others) c.lineTo(p[0], p[1]);
+        c.closePath();
+      }
+      c.fillStyle = css(colour, Math.min(1, 1.3 * (1 - (ring + 0.5) / RINGS)));
+      c.fill();
+    });
   }
 
   bumps([x, y], look) {
