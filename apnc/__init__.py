@@ -1,10 +1,10 @@
-"""Adaptive neural control for legged robots: simulate a walk, sum it up, run a study.
+"""Adaptive neural control for legged robots: simulate walks, measure them and run studies.
 
 >>> import apnc
 >>> record = apnc.simulate(apnc.Experiment(mi=0.15, duration=20))  # doctest: +SKIP
 >>> apnc.write_report(record, "walk/")  # doctest: +SKIP
 
-Nothing is imported before it is used.
+A module is imported when a name of it is used for the first time.
 """
 
 from __future__ import annotations

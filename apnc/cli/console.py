@@ -1,4 +1,4 @@
-"""What the command line shows: progress and tables; and the files it is about to write."""
+"""What the command line prints, and checks of the files that it is about to write."""
 # ruff: noqa: PLC0415  # rich takes a tenth of a second
 
 from __future__ import annotations
@@ -19,10 +19,17 @@ if TYPE_CHECKING:
 
 
 def writable(path: Path, *, file: bool = False) -> Path:
-    """A folder, or a file, made or proved writable before anything is computed.
+    """Check that a folder or file can be written, before anything is computed, and make the folder.
+
+    Args:
+        path: the folder, or the file.
+        file: whether the path is a file.
+
+    Returns:
+        The path.
 
     Raises:
-        ValueError: it cannot be made or written, or the file is a folder.
+        ValueError: the folder cannot be made or written, or the file is a folder.
     """
     folder = path.parent if file else path
     try:
@@ -39,17 +46,17 @@ def file_option(about: str, *names: str) -> Any:
     """An option that names a file to write.
 
     Args:
-        about: what the help says.
-        names: of the option, if not that of its parameter.
+        about: help text.
+        names: names of the option, where they differ from its parameter.
     """
     return typer.Option(*names, help=about, parser=file_path, metavar="<file>")
 
 
 def file_path(text: str | Path) -> Path:
-    """A path that a file may have, unlike ``folder/``.
+    """The path of a file.
 
     Raises:
-        BadParameter: it ends as a folder's does.
+        BadParameter: the text ends in a slash, as the path of a folder does.
     """
     if str(text).endswith(("/", os.sep)):
         raise typer.BadParameter(f"{text} is a folder; allowed: a file")
@@ -57,15 +64,15 @@ def file_path(text: str | Path) -> Path:
 
 
 def given(**options: str | Path | None) -> dict[str, list[Path]]:
-    """The files of options that are given, by option."""
+    """Files of the options that were given, by option."""
     return {f"--{name}": [Path(file)] for name, file in options.items() if file is not None}
 
 
 def apart(outputs: Mapping[str, Path | None], others: Mapping[str, Iterable[Path]]) -> None:
-    """Refuse to write a file that is written twice, or over one that is read.
+    """Refuse outputs that would overwrite each other or a file that is read.
 
     Args:
-        outputs: file of each option that is written, or None.
+        outputs: file that each option writes; None if the option was not given.
         others: files of other options, written or read.
 
     Raises:
@@ -91,7 +98,7 @@ def say(text: str, *, error: bool = False) -> None:
 
 
 def status(text: str) -> Status:
-    """Words that stand on the console while the with statement runs."""
+    """Text shown on the console while the with statement runs."""
     from rich.console import Console
 
     return Console(stderr=True).status(text)
@@ -110,11 +117,11 @@ def show_table(rows: Iterable[Iterable[str]], *headings: str) -> None:
 
 @contextmanager
 def bar(label: str) -> Iterator[Callable[[float, float, Callable[[float], str]], None]]:
-    """A bar with the time that remains; a line of text before the first step is done.
+    """A progress bar with the time that remains. Before the first step it is a line of text.
 
     Yields:
-        What to call with the simulated time done and its total [s], and what words the state given
-        the simulated time per wall time since the first call.
+        A function to call with the simulated time that is done, its total [s], and a function that
+        makes the text beside the bar of the simulated time per wall time since the first call.
     """
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
@@ -129,7 +136,7 @@ def bar(label: str) -> Iterator[Callable[[float, float, Callable[[float], str]],
     def update(done: float, total: float, state: Callable[[float], str]) -> None:
         nonlocal begin, shown, before
         now = time.perf_counter()
-        if not progress.live.is_started:  # not earlier: until then mistakes may show
+        if not progress.live.is_started:  # not earlier: until then an error may be printed
             waiting.stop()
             progress.start()
             begin, before = now, done

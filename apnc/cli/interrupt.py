@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM: at once while there is nothing to lose, at the next tick while there is."""
+"""Ctrl-C and SIGTERM end a command at once, or at the next tick if a record would be lost."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from types import FrameType
 from typing import Final
 
 STOPPED: Final = 128
-"""Exit code after a signal that ended the command, less the number of the signal."""
+"""Exit code after a signal minus the number of the signal."""
 
 NOTHING: Final = "interrupted, nothing recorded"
 
 
 class Interrupted(BaseException):
-    """A stop, with what to say about it. No KeyboardInterrupt, which libraries catch or replace."""
+    """A stop with a message. It is no KeyboardInterrupt, since libraries catch or replace those."""
 
 
 class StopRequest:
-    """A request to stop: what ``simulate`` and ``run_study`` ask for.
+    """A request to stop, as the argument ``stop`` of ``simulate`` and ``run_study``.
 
-    Until it is asked for the first time a signal raises Interrupted. After that the first one is
-    noted, since a record grows, and a second Ctrl-C raises. A second SIGTERM does not: schedulers
-    send it to a command and to what has started it, which passes it on.
+    Before it is called for the first time, a signal raises Interrupted. Afterwards a record grows,
+    so the first signal is only noted, and a second Ctrl-C raises. A second SIGTERM does not raise:
+    schedulers send it to a command and to its parent process, which passes it on.
 
     Attributes:
-        asked: whether a signal came; an import may swallow or change what was raised.
+        asked: whether a signal came. An import may swallow the exception, so this is kept as well.
         running: whether a loop has begun.
         code: exit code after the signal that came first.
     """
@@ -51,7 +51,7 @@ class StopRequest:
 
     @contextmanager
     def listening(self) -> Iterator[None]:
-        """Listen to Ctrl-C and SIGTERM inside the with statement."""
+        """Handle Ctrl-C and SIGTERM inside the with statement."""
         numbers = (signal.SIGINT, signal.SIGTERM)
         before = {number: signal.signal(number, self._note) for number in numbers}
         try:
@@ -62,4 +62,4 @@ class StopRequest:
 
 
 STOP = StopRequest()
-"""Ctrl-C and SIGTERM of this process."""
+"""The request to stop of this process."""

@@ -1,4 +1,4 @@
-"""``apnc``: runs a command; a mistake is one line, and Ctrl-C or SIGTERM no traceback."""
+"""``apnc``: runs a command. Bad input gives one line, and Ctrl-C and SIGTERM give no traceback."""
 # ruff: noqa: PLC0415  # not even while the command line is imported
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ def main(
     """Run a command line.
 
     Args:
-        arguments: of the command line; those of the process if omitted.
-        program: how it is called.
-        load: gives its commands.
+        arguments: words of the command line; those of the process if omitted.
+        program: name of the program in messages.
+        load: function that loads its commands.
 
-    Exit codes: 0 done; 1 a robot that fell, a motion that diverged, a trial that failed; 2 a
-    mistake of the caller, one line on stderr; 130 interrupted, 143 terminated.
+    Exit codes: 0 done; 1 a robot fell, a motion diverged or a trial failed; 2 bad input, with one
+    line on stderr; 130 interrupted; 143 terminated.
     """
     codecs.register_error("as_shown", _as_shown)
     for stream in (sys.stdout, sys.stderr):
@@ -53,14 +53,14 @@ def main(
 
 
 def _as_shown(error: UnicodeError) -> tuple[str, int]:
-    """Not every console shows Greek letters, or knows spaces of another kind."""
+    """Replacement of characters that the console cannot show, such as Greek letters."""
     assert isinstance(error, UnicodeEncodeError)
     lost = error.object[error.start : error.end]
     return "".join(" " if letter.isspace() else "?" for letter in lost), error.end
 
 
 def _refuse_empty(words: list[str]) -> None:
-    """An empty value is a mistake; an empty path would be the folder one is in."""
+    """Refuse empty values: an empty path would mean the present folder."""
     for before, word in pairwise(("argument", *words)):
         if word == "" or (word.startswith("--") and word.endswith("=")):
             raise ValueError(f"{(word or before).removesuffix('=')} is empty")

@@ -1,4 +1,4 @@
-"""Closed loops of controller and robot in C: runs side by side in the lanes of one plant."""
+"""Closed loops of controller and robot in C. Runs walk side by side in the lanes of one plant."""
 
 from __future__ import annotations
 
@@ -32,26 +32,26 @@ Stop = Callable[[], bool]
 
 
 def fmu_of(experiment: Experiment) -> str:
-    """Path of the controller that walks an experiment.
+    """Path of the FMU that controls an experiment.
 
     Raises:
-        BuildError: it is not among those that came with the package, and cannot be built.
+        BuildError: the package brings no such FMU, and it cannot be built.
     """
     return experiment.fmu or _own_fmu(len(experiment.description.legs))
 
 
 @cache
 def _own_fmu(legs: int) -> str:
-    """Path of the FMU with its defaults, looked for once: it takes milliseconds."""
+    """Path of the FMU with the defaults; cached, since the look-up takes milliseconds."""
     return str(host_fmu(legs))
 
 
 class Run:
-    """An experiment as C walks it, and what it leaves behind.
+    """One run of an experiment in C, and its record.
 
     Args:
-        experiment: what is run; its engine is not looked at.
-        controller: the FMU that walks it.
+        experiment: what is run. It walks in C whatever its engine is.
+        controller: the controller FMU.
     """
 
     def __init__(self, experiment: Experiment, controller: ControllerLibrary) -> None:
@@ -105,13 +105,13 @@ class Run:
 
     @property
     def phi(self) -> Array:
-        """Relative phases that the controller showed at the last tick [rad], (n_legs - 1,)."""
+        """Relative phases at the last tick [rad], shape (n_legs - 1,)."""
         phi: Array = self._controller_signals(max(1, self.ticks))["phi"][-1]
         return phi
 
     @property
     def ticks(self) -> int:
-        """Ticks that were taken."""
+        """Number of ticks taken so far."""
         return int(self.at.count)
 
     def _controller_signals(self, count: int) -> dict[str, Array]:
@@ -128,7 +128,7 @@ class Run:
         """What was recorded.
 
         Args:
-            end: how the run ended, if it was not by itself.
+            end: how the run ended, if it was ended from outside.
 
         Raises:
             FmuError: the controller refused.
@@ -168,9 +168,9 @@ class Run:
 
 
 def _ticks(experiment: Experiment, name: str) -> list[tuple[int, Any]]:
-    """Steps of a quantity by the tick from which each holds, later ones of a tick alone.
+    """Steps of a schedule, each with its first tick. Of several at one tick the last counts.
 
-    Those from the end of the run on are left out: C counts ticks in 32 bits.
+    Steps after the end of the run are left out, since C counts ticks in 32 bits.
     """
     found: dict[int, Any] = {}
     for start, value in steps_of(getattr(experiment, name)):
@@ -180,7 +180,7 @@ def _ticks(experiment: Experiment, name: str) -> list[tuple[int, Any]]:
 
 
 def _first_tick(start: float, Ts: float) -> int:
-    """The first tick n with n Ts at or after a time, as the loop in Python asks for it."""
+    """The first tick n with n Ts >= start, computed as the loop in Python does."""
     n = max(0, int(start / Ts) - 1)
     while n * Ts < start:
         n += 1
@@ -197,7 +197,7 @@ def _schedule(experiment: Experiment, name: str) -> tuple[dict[str, Any], tuple[
 
 @dataclass(frozen=True)
 class Lanes:
-    """What runs must have in common to walk side by side.
+    """Properties that runs must have in common to walk side by side.
 
     Args:
         fmu: path of the controller.
@@ -219,7 +219,7 @@ class Lanes:
 
 
 def lanes_of(experiment: Experiment) -> Lanes:
-    """With which other experiments one can walk side by side."""
+    """Properties of an experiment that others must share to walk beside it."""
     robot = experiment.description
     return Lanes(
         fmu_of(experiment),
@@ -236,19 +236,19 @@ class Batch:
     """Closed loops that walk side by side.
 
     Args:
-        lanes: what the runs have in common.
-        contacts: the most places of contact of a foot with any of their grounds.
-        single: one run alone, its legs side by side, instead of several runs.
-        level: instruction set, see ``plant.h``; the best of this machine if omitted. The bits of a
-            run are the same at each.
+        lanes: properties that the runs have in common.
+        contacts: largest number of contacts of a foot with any of their grounds.
+        single: compute one run with its legs side by side, in place of several runs.
+        level: instruction set, see ``plant.h``; the best of this machine if omitted. Every level
+            gives the same bits.
 
     Attributes:
         size: number of lanes.
         controller: the FMU that walks the runs.
 
     Raises:
-        ValueError: the controller is for another number of legs, or this machine does not have the
-            instruction set.
+        ValueError: the controller has another number of legs, or this machine lacks the instruction
+            set.
     """
 
     def __init__(
@@ -289,7 +289,11 @@ class Batch:
         lib.loop_begin(self._memory, lane, run.at)
 
     def walk(self, ticks: int) -> list[Run]:
-        """Walk until a run has ended, or for so many ticks; the runs that have ended."""
+        """Walk for a number of ticks, or until a run has ended.
+
+        Returns:
+            The runs that have ended.
+        """
         _, lib = library()
         begin, walking = time.perf_counter(), self.size - self.free
         lib.loop_walk(self._memory, ticks, self._stop)
@@ -305,17 +309,17 @@ class Batch:
         return ended
 
     def stop(self) -> None:
-        """Let :meth:`walk` return soon, from another thread."""
+        """Make :meth:`walk` return soon. It may be called from another thread."""
         self._stop[0] = 1
 
     def close(self) -> None:
-        """Give back what the controllers of unfinished runs hold."""
+        """Free the controllers of unfinished runs."""
         _, lib = library()
         lib.loop_free(self._memory)
         self._runs = [None] * self.size
 
 
 def contacts_of(experiments: Sequence[Experiment]) -> int:
-    """The most places at which a foot touches any of the grounds."""
+    """Largest number of contacts of a foot with any of the grounds."""
     grounds = {(e.ground, e.description.contact.foot_radius) for e in experiments}
     return max(ground.numbers(radius).contacts for ground, radius in grounds)

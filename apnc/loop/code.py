@@ -1,4 +1,4 @@
-"""Which code runs: a hash of the files that a motion and what is measured of it depend on."""
+"""Hash of the code that a motion and its measures depend on."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _PACKAGES: Final = (
 )
 _SUFFIXES: Final = (".c", ".h", ".py", ".toml")
 
-# of apnc and of packages with studies: what only shows, exports, documents or searches
+# parts of apnc and of packages with studies that only show, export, document or search
 _APART: Final = {"cli", "docs", "report", "search", "system", "figures.py"}
 
 ROOT: Final = Path(__file__).parents[2]
@@ -33,10 +33,10 @@ def code_hash(root: Path = ROOT) -> str:
 
 @cache
 def hash_of_package(name: str) -> str:
-    """The same of a package with studies that is not part of the product; empty for one that is.
+    """Hash of a package with studies outside the product; empty for a package of the product.
 
     Args:
-        name: of the package or of one in it; it can be imported.
+        name: of the package or of a module in it, which can be imported.
     """
     top = name.partition(".")[0]
     if top in _PACKAGES:

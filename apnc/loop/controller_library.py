@@ -1,4 +1,4 @@
-"""The controller FMU as a library of C functions, for closed loops in C."""
+"""The functions of the controller FMU, for closed loops in C."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _FUNCTIONS: Final = {
     "get_integer": "GetInteger",
     "get_boolean": "GetBoolean",
 }
-"""Members of ``loop_functions`` and the functions of FMI 2.0 they stand for."""
+"""Functions of FMI 2.0 by their members in ``loop_functions``."""
 
 _INPUTS: Final = ("grf", "MI", "turn")
 """Real inputs in the order in which ``loop.h`` has them."""
@@ -51,11 +51,11 @@ _COMMANDS: Final = ("theta_hip", "theta_knee")
 """Outputs in the order in which ``loop.h`` has them, before all others."""
 
 _KINDS: Final = {Type.real: "real", Type.boolean: "boolean"}
-"""Type of a variable and its group in ``loop_starts``; the others are integers."""
+"""Group of a type in ``loop_starts``. All other types are integers."""
 
 
 class ControllerLibrary:
-    """A controller FMU, unpacked and loaded; any number of instances can run at a time.
+    """A controller FMU that is unpacked and loaded. Any number of instances can run at a time.
 
     Args:
         path: the FMU file.
@@ -65,8 +65,8 @@ class ControllerLibrary:
         guid: of the FMU, for C.
         functions, variables: ``loop_functions`` and ``loop_variables`` of C.
         recorded: scalar variables in the order of the record in C.
-        sizes: how many entries each variable has in it, by name, in its order.
-        parameters: in the order in which C reads them back.
+        sizes: number of entries of each variable in that record, by name, in its order.
+        parameters: scalar parameters in the order in which C reads them back.
 
     Raises:
         FmuError: no FMU, not this controller, or no binary for this machine.
@@ -146,10 +146,10 @@ class ControllerLibrary:
         return fields
 
     def parameters_of(self, values: Sequence[float]) -> dict[str, settings.Setting]:
-        """Parameters by name, of what C has read back.
+        """Parameters by name from the values that C has read back.
 
         Args:
-            values: in the order of :attr:`parameters`.
+            values: one per scalar, in the order of :attr:`parameters`.
         """
         entries: dict[str, list[float]] = {}
         for member, value in zip(self.parameters, values, strict=True):
@@ -159,7 +159,7 @@ class ControllerLibrary:
         }
 
     def starts(self, parameters: Mapping[str, SettingLike]) -> tuple[Any, tuple[Any, ...]]:
-        """Start values as ``loop_starts``, and what it points to.
+        """Start values as ``loop_starts``, and the arrays that it points to and that must be kept.
 
         Raises:
             FmuError: an unknown parameter, or a wrong number of values.
@@ -182,15 +182,15 @@ class ControllerLibrary:
 
 
 def controller_library(path: Path | str) -> ControllerLibrary:
-    """The library of an FMU, loaded once as long as the file stays as it is.
+    """The library of an FMU. It is loaded once, and again if the file has changed.
 
     Raises:
         FmuError: as :class:`ControllerLibrary`.
     """
     state = Path(path).stat() if Path(path).is_file() else None
     stamp = (state.st_mtime_ns, state.st_size) if state else (0, 0)
-    # one thread at a time: of two that begin to check XML schemas at once, libxml2 may leave a
-    # process that finds no schema valid any more, and the working directory changes meanwhile
+    # One thread at a time: if two begin to check XML schemas at once, libxml2 may refuse every
+    # schema afterwards. Loading also changes the working directory for a moment.
     with _loading:
         return _loaded(Path(path).resolve(), stamp)
 

@@ -1,4 +1,4 @@
-"""Engines by name; nothing heavy is imported before one is asked for."""
+"""Engines by name. A package is imported only when its engine is used."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ ENGINES: Final = {
 """Module of the plant in each engine."""
 
 OWN_ENGINE: Final = "exudyn"
-"""The engine that walks if none is named."""
+"""The engine if none is named."""
 
 
 EXTRAS: Final = ("mujoco",)
-"""Engines whose package an extra of the same name brings."""
+"""Engines whose package is installed by an extra of the same name."""
 
 
 def check_engine(name: str) -> None:
-    """Refuse an engine that is not there.
+    """Refuse an unknown engine.
 
     Raises:
         ValueError: an unknown name.
@@ -41,7 +41,7 @@ def check_engine(name: str) -> None:
 
 
 def plant_in(engine: str) -> type[LeggedPlant | Plant]:
-    """The plant in an engine.
+    """Class of the plant in an engine.
 
     Raises:
         ValueError: the engine's package is not installed.

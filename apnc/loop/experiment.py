@@ -1,4 +1,4 @@
-"""An experiment as plain data: everything that a run depends on."""
+"""An experiment: everything that a run depends on, as plain data."""
 
 from __future__ import annotations
 
@@ -114,22 +114,23 @@ Settings = Annotated[Mapping[str, Any], AfterValidator(_settings)]
 
 @checked(ValueError)
 class Experiment:
-    """What is run. Frozen plain data, checked when it is made.
+    """Everything that a run depends on. It is checked when it is made and cannot change.
 
     Args:
         robot: name of a shipped robot, its file, or a description.
         mi: modulatory input [1], one value or steps over time ``((start [s], value), ...)``.
         duration: simulated time [s], rounded to whole ticks.
-        seed: of the robot's asymmetry and the sensor noise.
+        seed: seed of the robot's asymmetry and the sensor noise.
         controller: label of a method of the FMU with its settings, see ``apnc.controllers``.
             ``apnc`` if omitted; None of an FMU of one's own that keeps its method and settings.
         preset: ``robot`` (the defaults and what the robot's file sets), ``lilibot`` (the defaults)
             or ``paper`` (as printed).
         settings: parameters that differ from those of the preset and the controller, by name.
-        ground: what it walks on.
-        conditions: payload, damage and the like: a name of the paper, ``Conditions``, or steps.
+        ground: the ground.
+        conditions: payload, damage and faults: a name of the paper or ``Conditions``; one value or
+            steps.
         turn: steering [1], positive turns left; one value or steps.
-        reset: holds the controller in its start state; one value or steps.
+        reset: whether the controller is held in its start state; one value or steps.
         rate: update rate of the controller [Hz]; 60 or the FMU's own if omitted.
         step: longest integration step of the plant [s].
         engine: what integrates the equations of motion, ``exudyn``, ``mujoco`` or ``compiled``.
@@ -137,7 +138,7 @@ class Experiment:
             not the defaults, hold unless ``rate``, ``controller``, ``settings`` or a preset other
             than ``robot`` say otherwise; they go before what the robot's file sets.
 
-    Numbers and arrays of numpy and paths become what Python has for them.
+    Numbers and arrays of numpy become numbers and tuples, and paths become texts.
 
     Raises:
         ValueError: a value outside what is allowed, or names that the robot does not have.
@@ -177,7 +178,7 @@ class Experiment:
         self.parameters()
 
     def _of_fmu(self) -> dict[str, Any]:
-        """Fields that the FMU says itself, or else the defaults."""
+        """Defaults of ``rate`` and ``controller``; an FMU of one's own may have its own rate."""
         Ts: Any = self.fmu_starts.get("Ts", variable_named("Ts").start)
         return {"rate": 1.0 / Ts, "controller": OWN_CONTROLLER if self.fmu is None else None}
 
@@ -271,7 +272,7 @@ class Experiment:
         return values
 
     def starts(self) -> dict[str, SettingLike]:
-        """What the controller is set to: relations that are 0 only if it starts with others."""
+        """Parameters to set in the FMU. Relations of 0 are set only where the FMU has others."""
         values = self.parameters()
         if not values["phi_stored"]:
             values["phi_stored"] = (0.0,) * (len(self.description.legs) - 1)
@@ -280,22 +281,22 @@ class Experiment:
         return values
 
     def changed(self) -> dict[str, Any]:
-        """Fields that are not the default, by name; of an FMU its own values are the default."""
+        """Fields by name that differ from the default. The values of an FMU are its defaults."""
         default = {f.name: getattr(_default(), f.name) for f in fields(self)} | self._of_fmu()
         own = {name: getattr(self, name) for name in default}
         return {name: value for name, value in own.items() if value != default[name]}
 
     def to_dict(self) -> dict[str, Any]:
-        """Every field as plain data for JSON, the robot by its name unless it is an object."""
+        """Every field as plain data for JSON. A robot given by name stays a name."""
         values: dict[str, Any] = to_dict(self)
         return values | {"ground": self.ground.to_dict()}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Experiment:
-        """The experiment that :meth:`to_dict` gave, also after a way through JSON.
+        """The experiment of data that :meth:`to_dict` has made, also after a way through JSON.
 
         Raises:
-            ValueError: not such data.
+            ValueError: the data lack a field or hold a value that is not allowed.
         """
         if not isinstance(data, Mapping):
             raise ValueError(f"not an experiment: a {type(data).__name__} in place of a table")
@@ -307,8 +308,8 @@ class Experiment:
             raise ValueError(f"not an experiment: {error}") from None
 
     def key(self) -> str:
-        """Hash of all that a run depends on: robot, parameters, code; 16 hex digits."""
-        told = {"preset", "settings", "controller"}  # by the parameters
+        """Hash of everything that a run depends on, also the robot and the code; 16 hex digits."""
+        told = {"preset", "settings", "controller"}  # they are in the parameters
         content = {
             **{f.name: getattr(self, f.name) for f in fields(self) if f.name not in told},
             "robot": _hash_of(self.description),
@@ -321,9 +322,9 @@ class Experiment:
         return _digest(content)[:16]
 
     def command(self) -> str:
-        """The command line that runs it again.
+        """The command line that runs the experiment again.
 
-        A robot or conditions that are an object have no words there; then a comment says so.
+        A robot or conditions given as an object have no option. Then it is a comment that says so.
         """
         if objects := self._objects():
             return f"# from Python only: {' and '.join(objects)} given as an object"
@@ -344,7 +345,7 @@ class Experiment:
         return shlex.join(words)
 
     def _objects(self) -> list[str]:
-        """What was given as an object and equals nothing that has a name."""
+        """Objects that were given and that equal nothing with a name."""
         found = []
         robot = self.robot
         if isinstance(robot, RobotDescription):
@@ -358,7 +359,7 @@ class Experiment:
 
 
 def conditions_of(value: str | Conditions) -> Conditions:
-    """The conditions that a value of ``Experiment.conditions`` means."""
+    """The conditions that a value of ``Experiment.conditions`` stands for."""
     if isinstance(value, Conditions):
         return value
     return named_conditions(value)
@@ -375,7 +376,7 @@ def _digest(value: Any) -> str:
 
 @lru_cache
 def _hash_of(robot: RobotDescription) -> str:
-    """Asked once per robot: a description takes longer to write down than all the rest."""
+    """Cached, since writing a description down takes longer than all the rest."""
     return _digest(robot)
 
 

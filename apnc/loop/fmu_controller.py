@@ -1,4 +1,4 @@
-"""The controller FMU, driven through fmpy: arrays in, arrays out, one call per control tick."""
+"""The controller FMU, driven by fmpy with arrays as inputs and outputs, one call per tick."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Block:
         call: the FMI function.
         arguments: what it takes after the component.
         view: the values, as numpy sees them.
-        places: where the entries of each variable lie in ``view``.
+        places: slice of the entries of each variable in ``view``.
     """
 
     def __init__(self, call: Any, members: Sequence[Scalar]) -> None:
@@ -104,10 +104,10 @@ def entries_of(
 
 
 def parameter_of(variable: Variable, entries: Sequence[float]) -> settings.Setting:
-    """A parameter as an experiment has it, of what its scalars hold in an FMU.
+    """Value of a parameter from the numbers that its scalars have in an FMU.
 
     Raises:
-        ValueError: a number that it cannot have.
+        ValueError: a number that the parameter cannot have.
     """
     if variable.shape is not Shape.scalar:
         return settings.checked(variable.name, entries if any(entries) else ())
@@ -121,7 +121,7 @@ def own_starts(path: Path | str) -> tuple[int, dict[str, settings.Setting]]:
     """Number of legs of a controller FMU, and its own start values.
 
     Returns:
-        Those parameters, by name, that do not start at the default of the table in it.
+        Parameters by name whose start value in the FMU is not the default of the table.
 
     Raises:
         FmuError: no FMU, not this controller, or a start value that a parameter cannot have.

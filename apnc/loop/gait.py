@@ -48,7 +48,7 @@ class Gait:
             raise ValueError(f"{len(self.phi)} relations do not fit {len(self.legs)} legs")
 
     def settings(self, legs: tuple[str, ...]) -> dict[str, Any]:
-        """Parameters of the FMU that start it with this gait on a robot with these legs.
+        """Parameters of the FMU to start with this gait on a robot with these legs.
 
         Raises:
             GaitError: the gait is one of other legs.

@@ -1,4 +1,4 @@
-"""Many closed loops at once: batches of lanes in C, on threads of this process."""
+"""Many closed loops at once: batches of runs in C on the threads of this process."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _POLL_S: Final = 0.1
 """How often ``stop`` is asked while nothing ends [s]."""
 
 _TICKS: Final = 2**30
-"""More than any run has: lanes walk until one of them has ended."""
+"""More ticks than any run has, so that a batch walks until a run has ended."""
 
 _BROKEN: Final = -1
-"""Instead of an index: what follows is an error that no experiment has made."""
+"""In place of the index of an experiment: the error is not one of an experiment."""
 
 
 @overload
@@ -59,13 +59,12 @@ def simulate_many(
 ) -> list[WalkFeatures | None] | list[Record | None]:
     """Walk many experiments in C, several robots side by side.
 
-    Each walks as ``simulate`` walks it with ``engine="compiled"``, bit for bit, whatever walks
-    beside it. An experiment that names another engine is walked in C all the same, and its summary
-    or record says so.
+    Every run has the same bits as ``simulate`` with ``engine="compiled"``, whatever walks beside
+    it. An experiment that names another engine walks in C as well; its summary or record says so.
 
     Args:
         experiments: what is run.
-        workers: threads, at best as many as there are cores.
+        workers: number of threads; best is the number of cores.
         records: return whole records instead of summaries. A record of 45 s takes 3.5 MB.
         progress: called after every run with the number of runs done and of all.
         stop: asked a few times a second; True ends the work.
@@ -98,20 +97,20 @@ def walk_many(
     workers: int = 1,
     stop: Stop = lambda: False,
 ) -> Iterator[tuple[int, Found | Exception]]:
-    """Walk experiments and give what ``each`` makes of every record, as they finish.
+    """Walk experiments and yield what ``each`` makes of every record, as the runs finish.
 
     Args:
         experiments: what is run.
-        each: called with index and record in the thread that walked them, one call at a time per
-            thread.
-        workers: threads.
+        each: function of index and record. It is called in the thread that walked the run, one call
+            at a time per thread.
+        workers: number of threads.
         stop: asked a few times a second; True ends the work.
 
     Yields:
         Index of an experiment, and its result or the exception that ended it.
 
     Raises:
-        ValueError: fewer than one worker, or a controller that is not there.
+        ValueError: fewer than one worker, or a missing controller.
     """
     if workers < 1:
         raise ValueError(f"workers = {workers} is not at least 1")
@@ -123,10 +122,10 @@ class _Group:
     """Experiments that can walk side by side.
 
     Attributes:
-        lanes: what they have in common.
-        contacts: the most places of contact of a foot with any of their grounds.
+        lanes: properties that they have in common.
+        contacts: largest number of contacts of a foot with any of their grounds.
         left: indices of those that no thread has taken.
-        threads: how many threads walk some of them.
+        threads: number of threads that walk some of them.
     """
 
     def __init__(self, experiments: Sequence[Experiment], lanes: Lanes, those: list[int]) -> None:
@@ -137,10 +136,11 @@ class _Group:
 
 
 class _Work:
-    """What is left to walk, shared by the threads that walk it.
+    """The runs that are left, shared by the threads.
 
-    Threads, no processes: C walks without the interpreter's lock, and what needs it, to prepare a
-    run and to take its figures, is 4 ms of 11 for 45 s of four legs. More than three threads wait.
+    Threads suffice, since C walks without the interpreter's lock. Python needs the lock to prepare
+    a run and to take its figures: 4 ms of 11 ms for 45 s of four legs. So more than three threads
+    wait for each other.
     """
 
     def __init__(
@@ -191,7 +191,7 @@ class _Work:
             self._found.put((_BROKEN, error))
 
     def _join(self) -> _Group | None:
-        """The group to walk next: one that no other thread walks, so that lanes are full."""
+        """The group to walk next, if possible one without a thread, so that all lanes are used."""
         with self._lock:
             waiting = [group for group in self._groups if group.left]
             if not waiting:
@@ -201,7 +201,7 @@ class _Work:
             return group
 
     def _walk(self, group: _Group) -> None:
-        """Walk what is left of a group, side by side; an error of one ends no other."""
+        """Walk what is left of a group side by side. An error in one run ends no other."""
         try:
             batch = Batch(group.lanes, group.contacts, single=len(group.left) == 1)
         except ValueError as error:  # the controller cannot be used

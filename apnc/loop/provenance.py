@@ -1,4 +1,4 @@
-"""What was run, in full: for summaries and reports, so that a result can be made again."""
+"""What was run, in full, so that the result in a summary or report can be made again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Quantities over time: one value, or steps ``((start [s], value), ...)``."""
+"""Schedules: one value for all the time, or steps ``((start [s], value), ...)``."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from typing import Any, TypeAlias, TypeVar
 T = TypeVar("T")
 Steps: TypeAlias = tuple[tuple[float, T], ...]
 Schedule: TypeAlias = T | Steps[T]
-"""A value that holds all the time, or steps of it."""
+"""A value that holds all the time, or steps: each value holds from its start to the next."""
 
 
 def steps_of(value: Schedule[Any]) -> Steps[Any]:
-    """The steps of a quantity; one from the start on if it is a single value."""
+    """The steps of a schedule. A single value is one step from 0 on."""
     if isinstance(value, tuple | list):
         return tuple((float(start), entry) for start, entry in value)
     return ((0.0, value),)
 
 
 def checked_schedule(value: Any, check: Callable[[Any], T]) -> Schedule[T]:
-    """The schedule with each of its values as ``check`` gives it.
+    """The schedule with every value replaced by what ``check`` returns for it.
 
     Raises:
         ValueError: steps that are no pairs, no step, a first one that is not at 0, or times that do
@@ -42,7 +42,7 @@ def checked_schedule(value: Any, check: Callable[[Any], T]) -> Schedule[T]:
 
 
 class ScheduleLookup:
-    """Steps, asked for tick by tick."""
+    """Looks up the value of a schedule tick by tick."""
 
     def __init__(self, value: Schedule[Any]) -> None:
         steps = steps_of(value)
@@ -78,7 +78,7 @@ def _text(value: Any) -> str:
 
 
 def schedule_text(value: Schedule[Any], text: Callable[[Any], str] = _text) -> str:
-    """The text that :func:`parse_schedule` takes, exact; ``text`` words one value."""
+    """The text that :func:`parse_schedule` reads, without rounding. ``text`` writes one value."""
     if not isinstance(value, tuple | list):
         return text(value)
     return ",".join(f"{_text(start)}:{text(entry)}" for start, entry in steps_of(value))

@@ -1,4 +1,4 @@
-"""The co-simulation master: the one closed loop of robot and controller."""
+"""The co-simulation master: the closed loop of robot and controller."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from build_fmu.build import host_fmu
 
 
 class Shown(Protocol):
-    """What is shown of the controller while a robot walks."""
+    """State of the controller that can be shown while a robot walks."""
 
     @property
     def phi(self) -> Any:
@@ -49,14 +49,14 @@ def simulate(
 
     Args:
         experiment: what is run.
-        plant: the robot at its start; made of the experiment in its engine if omitted.
-        progress: called with the time [s] and what the controller shows, after every tick, or with
+        plant: the robot at its start. If omitted, it is made from the experiment, in its engine.
+        progress: called with the time [s] and the state of the controller after every tick; with
             ``engine="compiled"`` every quarter of a simulated second.
-        stop: asked as often; True ends the run.
+        stop: called as often; True ends the run.
 
     Returns:
-        The record. A fall, a motion that diverges or ``stop`` end it early; what was recorded
-        stays.
+        The record. A fall, a motion that diverges or ``stop`` end the run early; the record then
+        holds the samples up to there.
 
     Raises:
         ValueError: the FMU cannot be used, or is for another number of legs.

@@ -1,4 +1,4 @@
-"""Build a system: an SSP archive, and beside it the same as a folder for other tools."""
+"""Build a system as an SSP archive, and as a folder for tools that read other formats."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from build_fmu.platforms import host_platform
 from build_fmu.writing import write_atomically
 
 _BESIDE: Final = (OSP_FILE, CONTAINER_FILE, HEADER_FILE)
-"""Files of the folder that are not in the archive."""
+"""Files of the folder that the archive does not hold."""
 
 
 def system_files(

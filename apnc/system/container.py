@@ -1,4 +1,4 @@
-"""A system as the description that fmu-manipulation-toolbox makes one FMU of."""
+"""A system as the description from which fmu-manipulation-toolbox makes one FMU."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ CONTAINER_FILE: Final = "container.json"
 
 
 def container(structure: Structure) -> bytes:
-    """container.json: both FMUs one after the other, as on the robot, with their start values.
+    """Content of container.json: both FMUs, stepped one after the other, and their start values.
 
-    The tool reads an SSP too, but leaves out its start values and steps its FMUs side by side.
+    The tool also reads an SSP archive, but it ignores the start values there and steps the FMUs in
+    parallel.
     """
     source = {part.name: part.source for part in structure.components}
     description = {

@@ -1,4 +1,4 @@
-"""A system as a C header: what a program needs that reads no XML."""
+"""A system as a C header, for programs that read no XML."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from build_fmu.platforms import PLATFORMS
 HEADER_FILE: Final = "system.h"
 
 _TYPES: Final = {Type.real: "double", Type.integer: "int", Type.boolean: "int"}
-"""Types of start values, and in C."""
+"""Types of start values in FMI, and in C."""
 
 _CONDITIONS: Final = {
     "win64": "defined _WIN32",
     "darwin64": "defined __APPLE__",
     "aarch64-linux": "defined __aarch64__",
 }
-"""How a compiler knows the platforms; if none holds it is Linux on x86-64."""
+"""Condition of the preprocessor by platform. If none holds, it is Linux on x86-64."""
 
 _STRUCT: Final = """
 /* An FMU: its connections, from outputs of the other one to its inputs, and its start values. */

@@ -18,10 +18,10 @@ _NAMESPACE: Final = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
 
 
 def osp(structure: Structure) -> bytes:
-    """OspSystemStructure.xml.
+    """Content of OspSystemStructure.xml.
 
-    Pitfall: its steps are whole nanoseconds. The step is the longest that is no longer than a tick:
-    with longer ones time runs ahead, until two ticks of the controller fall into one step.
+    Pitfall: steps are whole nanoseconds there. The step is rounded down: if it were longer than a
+    tick, time would run ahead until two ticks of the controller fall into one step.
     """
     root = etree.Element("OspSystemStructure", xmlns=_NAMESPACE, version="0.1")
     step = f"{math.floor(structure.step * NANOSECONDS + 1e-3) / NANOSECONDS:.9f}"

@@ -1,4 +1,4 @@
-"""Build the plant FMU: a robot in plain C, its numbers inside, as an FMU 2.0 or 3.0."""
+"""Build the plant FMU: a robot in plain C, with its numbers inside, as an FMU 2.0 or 3.0."""
 
 from __future__ import annotations
 

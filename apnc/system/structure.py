@@ -1,4 +1,4 @@
-"""Controller and plant connected, as plain data; the files of SSP, OSP and C are made from it."""
+"""The system of controller and plant as plain data, from which all of its files are made."""
 
 from __future__ import annotations
 
@@ -25,22 +25,22 @@ RESOURCES: Final = "resources"
 _CONTROLLER_SHOWS: Final = (*COMMANDS, "o1", "o2", "phi", "kappa")
 _PLANT_SHOWS: Final = (LOAD, "position", "rpy", "velocity", FELL.name)
 _INPUTS_SET: Final = ("MI", "turn")
-"""Inputs that nothing is connected to and that an experiment gives a value."""
+"""Inputs that are not connected and that get their value from the experiment."""
 
 PLANT_PARAMETERS: Final = {v.name: v for v in TABLE if v.causality is Causality.parameter}
 """Parameters of the plant by name."""
 
 _OF_EXPERIMENT: Final = ("seed", "roughness", "slope", "payload", "condition", "step")
-"""Those of them that an experiment says."""
+"""Parameters of the plant that the experiment sets."""
 
 
 class UnfitExperimentError(ValueError):
-    """An experiment that a system cannot hold, in one line."""
+    """An experiment that a system cannot hold."""
 
 
 @dataclass(frozen=True)
 class Connector:
-    """An input or output that the system shows.
+    """An input or output of an FMU that is a connector of its component.
 
     Args:
         name: of the variable.
@@ -64,7 +64,7 @@ class Component:
     Args:
         name: of the component.
         model: name of the model, and of its libraries.
-        connectors: what it shows.
+        connectors: its inputs and outputs.
     """
 
     name: str
@@ -137,8 +137,8 @@ def plant_build(experiment: Experiment, naming: str, platforms: tuple[str, ...] 
     """The plant FMU of a system; its enumerations are numbers, which every tool takes.
 
     Args:
-        experiment: what walks; its robot by name or file.
-        naming: of its variables.
+        experiment: the experiment; its robot is given by name or file.
+        naming: naming of the variables.
         platforms: names of the binaries to include.
     """
     assert isinstance(experiment.robot, str)
@@ -154,7 +154,7 @@ def plant_setting(text: str) -> tuple[str, Setting] | None:
         text: name, equals sign and value; the value as in JSON, an enumeration by item name.
 
     Returns:
-        Name and value, or None where the name is of no number of the robot.
+        Name and value, or None if the robot has no number of that name.
 
     Raises:
         ValueError: a value outside what is allowed.
@@ -176,11 +176,11 @@ def structure_of(
     """The system that walks an experiment.
 
     Args:
-        experiment: what walks; its robot by name or file, its ground a plane or the paper's
-            obstacles with the seed of the experiment, and nothing in it changes over time.
-        naming: of both FMUs.
-        numbers: servo, contact and sensor of the robot where they are not those of its file, by
-            the names of the plant's parameters, such as ``servo.stiffness``.
+        experiment: the experiment. Its robot is given by name or file, its ground is a plane or the
+            paper's obstacles with the seed of the experiment, and nothing changes over time.
+        naming: naming of the variables of both FMUs.
+        numbers: values of servo, contact and sensor in place of those of the robot's file, by the
+            names of the plant's parameters, such as ``servo.stiffness``.
 
     ``MI``, ``turn`` and ``reset`` are no connectors: fmpy.ssp feeds an input that is listed and not
     connected with what the input listed before it gets. They keep their start values, which for
@@ -253,7 +253,7 @@ def _refuse(experiment: Experiment) -> None:
 
 
 def _condition(experiment: Experiment) -> tuple[Condition, float] | None:
-    """Condition of an experiment by name, and what its payload exceeds that of the name by [kg]."""
+    """Named condition of an experiment, and its payload beyond that of the condition [kg]."""
     wanted = experiment.conditions
     if isinstance(wanted, str):
         return Condition[wanted], 0.0
@@ -267,9 +267,9 @@ def _condition(experiment: Experiment) -> tuple[Condition, float] | None:
 
 
 def _controller_starts(experiment: Experiment, naming: str) -> list[Start]:
-    """Inputs and the whole preset, but flags only where they are not the default.
+    """Start values of inputs and parameters. Flags are left out where they have their default.
 
-    FMPy takes every flag of a parameter set for true.
+    FMPy reads every flag in a parameter set as true.
     """
     known: dict[str, list[Scalar]] = {}
     for scalar in scalars(len(experiment.description.legs), naming):
@@ -292,7 +292,7 @@ def _controller_starts(experiment: Experiment, naming: str) -> list[Start]:
 def _plant_starts(
     experiment: Experiment, naming: str, numbers: Mapping[str, Setting]
 ) -> list[Start]:
-    """All parameters of the plant: those of the robot have the values of its file."""
+    """Start values of all parameters of the plant; those of the robot are from its file."""
     found = _condition(experiment)
     assert found is not None
     condition, payload = found
