@@ -14,6 +14,7 @@ from raw_fmu import ERROR, OK, TS, Instance, Library, fmu_in
 from raw_walk import LOADS
 from slave import SCALARS
 
+from apnc.system.plant_fmu import PlantBuild, plant_fmu
 from apnc_core.schema import Type
 from build_fmu.build import cached_fmu
 from build_fmu.options import BuildOptions, host_platform
@@ -41,6 +42,20 @@ def test_the_description_is_valid_and_shows_nothing_but_reals(fmi: int) -> None:
     assert {v.type for v in variables} == {"Real" if fmi == 2 else "Float64"}
     items = next(v.description for v in variables if v.name == "method")
     assert items.endswith("1 apnc, 2 apc, 3 tegotae, 4 phase_reset")
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_the_robot_is_shown_so_too(fmi: int) -> None:
+    path = plant_fmu(PlantBuild(fmi=fmi, platforms=(host_platform(),), reals=True))
+    assert validate_fmu(str(path)) == []
+    kind = "Real" if fmi == 2 else "Float64"
+    description = fmpy.read_model_description(str(path))
+    assert {v.type for v in description.modelVariables} == {kind}
+    # the one Boolean output, which would end the run of such an importer
+    fell = fmpy.simulate_fmu(
+        str(path), stop_time=0.2, output_interval=TS, start_values={"seed": 3.0}, output=["fell"]
+    )["fell"]
+    assert set(fell) == {0.0}
 
 
 def test_names_and_value_references_are_those_of_every_build() -> None:

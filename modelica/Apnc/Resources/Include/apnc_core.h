@@ -252,11 +252,11 @@ static inline apnc_real apnc_angle(apnc_real y, apnc_real x) {
 
 #define APNC_NAME(name) APNC_JOIN(APNC_PREFIX, name)
 
-#define apnc_variables     APNC_NAME(variables)
-#define apnc_defaults APNC_NAME(defaults)
-#define apnc_init     APNC_NAME(init)
-#define apnc_reset    APNC_NAME(reset)
-#define apnc_tick     APNC_NAME(tick)
+#define apnc_variables APNC_NAME(variables)
+#define apnc_defaults  APNC_NAME(defaults)
+#define apnc_init      APNC_NAME(init)
+#define apnc_reset     APNC_NAME(reset)
+#define apnc_tick      APNC_NAME(tick)
 
 #endif
 
