@@ -1,0 +1,84 @@
+"""``apnc import-robot``: a robot file from a URDF or MJCF of other people."""
+# ruff: noqa: PLC0415  # what takes long to import waits until it is needed
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from typer import Argument, Option
+
+from apnc.cli.console import apart, file_option, say, show_table, writable
+
+if TYPE_CHECKING:
+    from apnc.importing import ImportedRobot
+
+
+def import_robot(
+    file: Annotated[Path, Argument(help="URDF or MJCF file. MJCF needs the extra mujoco.")],
+    pose: Annotated[
+        str | None,
+        Option(help="Pose to walk about: a keyframe, or zero. Default: a stance that trots."),
+    ] = None,
+    output: Annotated[Path, file_option("Robot file to write. Default: robot.toml.")] = Path(
+        "robot.toml"
+    ),
+) -> None:
+    """Read a robot from URDF or MJCF; write its robot file and say what was found.
+
+    What the file does not say is estimated from Lilibot, scaled to the size of the robot.
+    """
+    from apnc.importing import import_robot as read
+
+    apart({"--output": output}, {"the model": [file]})
+    if output.suffix != ".toml":
+        raise ValueError(f"--output is {output}; allowed: a name that ends in .toml")
+    robot = read(file, pose)
+    writable(output, file=True).write_text(robot.toml, encoding="utf-8")
+    _say(robot, file)
+    say(
+        f"{output}: walk it with\n"
+        f"apnc walk --robot {output} --engine compiled --rate {robot.rate:.3g} "
+        f"--step {_rounded_down(robot.step)}"
+    )
+
+
+def _rounded_down(step: float) -> str:
+    """A step of three digits that is not longer [s]."""
+    return f"{step * 0.9975:.3g}"
+
+
+def _say(found: ImportedRobot, file: Path) -> None:
+    robot = found.robot
+    length = robot.legs[0].femur_length + robot.legs[0].tibia_length
+    say(f"{file.name}: {robot.name}, {robot.mass:.4g} kg, {len(robot.legs)} legs of {length:.3g} m")
+    say("\nlegs; q is the angle here [rad]")
+    show_table(
+        (
+            [
+                leg.name,
+                *(each.words() for each in found.joints if each.leg == leg.name),
+                own.foot.name,
+            ]
+            for leg, own in zip(robot.legs, found.legs, strict=True)
+        ),
+        "here", "abduction", "hip", "knee", "foot",
+    )  # fmt: skip
+    stance = found.stance
+    say(
+        f"\nstance: hips {stance.ratio:.3g} and middle of the feet {stance.behind:.3g} behind the "
+        "centre of mass, in halves of the distance of neighbouring hips"
+    )
+    say("\nestimated, since the file does not say it")
+    show_table(
+        (
+            [each.name, f"{each.value:.4g} {each.unit}".strip(), each.why]
+            for each in found.estimates
+        ),
+        "key", "value", "from",
+    )  # fmt: skip
+    if found.dropped:
+        say("\nnot in the robot file")
+        for line in found.dropped:
+            say(f"- {line}")
+    say("")

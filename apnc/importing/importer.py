@@ -1,0 +1,202 @@
+"""From a model file to a robot file, and what was found, estimated and dropped on the way."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from apnc.importing.joint_map import JointMap, joint_maps
+from apnc.importing.legs import LegGeometry, leg_geometry
+from apnc.importing.limbs import Limbs, limbs_of
+from apnc.importing.mjcf import read_mjcf
+from apnc.importing.model import Model, ModelFileError
+from apnc.importing.robot_file import Found, robot_text
+from apnc.importing.scaling import Estimate, Guessed, Size, guess
+from apnc.importing.stance import Stance, Swing, stance_by_rule, stance_of_pose
+from apnc.importing.urdf import read_urdf
+from apnc.importing.xml_file import read_xml
+from apnc_core.interface import Parameters
+from apnc_core.types import Array
+from apnc_plant.compiled import foot_mass
+from apnc_plant.ground import GroundInC, Plane
+from apnc_plant.numbers import robot_numbers
+from apnc_plant.options import PlantOptions
+from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.start import start_coordinates
+
+ZERO: Final = "zero"
+"""Pose of every file: all joints at 0."""
+
+STEPS: Final = 8
+"""Integration steps of a tick are a multiple of this."""
+
+
+@dataclass(frozen=True)
+class ImportedRobot:
+    """A robot that was read from a model file.
+
+    Args:
+        toml: its robot file.
+        robot: the same as a robot.
+        legs: what was found of its legs, in the order of ``robot.legs``.
+        stance: how it stands, which is its reference pose.
+        joints: how its joints are counted in the file.
+        estimates: numbers that are not the file's.
+        dropped: what of the file is not in the robot, in words.
+        rate: update rate to walk it at [Hz].
+        step: longest integration step to walk it with [s].
+    """
+
+    toml: str
+    robot: RobotDescription
+    legs: tuple[LegGeometry, ...]
+    stance: Stance
+    joints: tuple[JointMap, ...]
+    estimates: tuple[Estimate, ...]
+    dropped: tuple[str, ...]
+    rate: float
+    step: float
+
+
+def import_robot(path: str | Path, pose: str | None = None) -> ImportedRobot:
+    """Read a robot from URDF or MJCF.
+
+    Args:
+        path: the model file; its x axis points forward, y to the left, z up.
+        pose: name of a pose of the file, or ``zero``, about which the robot is to walk; the rule
+            of :func:`apnc.importing.stance.stance_by_rule` if omitted.
+
+    Raises:
+        ModelFileError: the file cannot be read, or the robot file cannot say what it holds.
+        ValueError: MJCF, and MuJoCo is not installed.
+    """
+    path = Path(path)
+    try:
+        model = _read(path)
+        return _imported(model, path.name, pose)
+    except ModelFileError as error:
+        raise ModelFileError(f"{path.name}: {error}") from None
+
+
+def _read(path: Path) -> Model:
+    root = read_xml(path)
+    if root.tag == "robot":
+        return read_urdf(root, path)
+    if root.tag == "mujoco":
+        return read_mjcf(root, path)
+    raise ModelFileError(f"its root is <{root.tag}>; allowed: <robot> (URDF) or <mujoco> (MJCF)")
+
+
+def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
+    angles = {}
+    if pose is not None:
+        poses = {ZERO: {}} | dict(model.poses)
+        if pose not in poses:
+            raise ModelFileError(f"pose is {pose!r}; allowed: {', '.join(poses)}")
+        angles = dict(poses[pose])
+    limbs = limbs_of(model, angles)
+    legs = _ordered([leg_geometry(leg) for leg in limbs.legs])
+    names = _names(legs)
+    default = Parameters()
+    swing = Swing(default.a1, default.a2)
+    trunk = limbs.trunk.body
+    if trunk.mass <= 0.0:
+        raise ModelFileError(f"{model.parts[0].name}: it has no mass; allowed: above 0 [kg]")
+    stance = (
+        stance_by_rule(trunk, legs, swing)
+        if pose is None
+        else stance_of_pose(trunk, legs, swing, angles)
+    )
+    mass = trunk.mass + sum(body.mass for leg in legs for body in leg.bodies)
+    length = float(np.mean([leg.femur + leg.tibia for leg in legs]))
+    guessed = guess(legs, Size(mass, length, len(legs)), 1.0 / default.Ts)
+    joints = joint_maps(names, legs, stance)
+    found = Found(model.name, trunk, _outline(limbs), names, legs, stance, joints, guessed)
+    text = robot_text(found, source)
+    robot = _loaded(text.toml)
+    return ImportedRobot(
+        text.toml,
+        robot,
+        legs,
+        stance,
+        joints,
+        guessed.estimates,
+        (*model.dropped, *limbs.folded, *stance.dropped, *guessed.dropped, *text.dropped,
+         *_not_said(legs)),
+        guessed.rate,
+        longest_step(robot, guessed),
+    )  # fmt: skip
+
+
+def _ordered(legs: Iterable[LegGeometry]) -> tuple[LegGeometry, ...]:
+    """The legs in the order of a robot: right from front to hind, then left."""
+    return tuple(sorted(legs, key=lambda leg: (not leg.right, -leg.mount[0])))
+
+
+def _names(legs: Sequence[LegGeometry]) -> tuple[str, ...]:
+    """Names by place: RF, RH, LF, LH; RM and LM between them, or R2, R3 and so on."""
+    names = []
+    for side, right in (("R", True), ("L", False)):
+        count = sum(leg.right is right for leg in legs)
+        middle = ["M"] if count == 3 else [str(k) for k in range(2, count)]
+        names += [side + place for place in ("F", *middle, "H")[:count]]
+        if count < 2:
+            raise ModelFileError(
+                f"{count} of {len(legs)} legs are on the side {side}; allowed: two or more"
+            )
+    return tuple(names)
+
+
+def _outline(limbs: Limbs) -> Array | None:
+    """Box around the simple shapes of the trunk: middle and edges [m], shape (2, 3)."""
+    for touching in (True, False):
+        corners = []
+        for shape in limbs.trunk.shapes:
+            if shape.touches is touching:
+                reach = np.abs(shape.frame.turn) @ shape.half
+                corners += [shape.frame.position - reach, shape.frame.position + reach]
+        if corners:
+            low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+            return np.array([(low + high) / 2.0, high - low])
+    return None
+
+
+def _loaded(toml: str) -> RobotDescription:
+    """The robot of a robot file, as any other is read."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "robot.toml")
+        path.write_text(toml, encoding="utf-8")
+        return load_robot(path)
+
+
+def longest_step(robot: RobotDescription, guessed: Guessed) -> float:
+    """Integration step with which friction of the feet is stable [s].
+
+    A tick has at least Ts mu (W/2) / (m v) steps, with the apparent mass m of a foot along the
+    ground and the friction speed v, and no step is longer than the default.
+
+    Args:
+        robot: the robot.
+        guessed: has its update rate.
+    """
+    ground = GroundInC(Plane(), robot.contact.foot_radius)
+    numbers, options = robot_numbers(robot), PlantOptions()
+    mass = foot_mass(robot, numbers, ground, start_coordinates(numbers, ground, options))
+    tick = 1.0 / guessed.rate
+    friction = robot.contact.friction * robot.weight / 2.0
+    steps = tick * friction / (mass * robot.contact.friction_speed)
+    whole = STEPS * math.ceil(max(steps, tick / options.step) / STEPS)
+    return tick / whole
+
+
+def _not_said(legs: Sequence[LegGeometry]) -> Iterable[str]:
+    """What the robot file has no key for and these legs have."""
+    turns = [turn for leg in legs for turn in leg.turns if math.isfinite(turn.upper - turn.lower)]
+    if turns:
+        yield f"ranges of {len(turns)} joints: the gait stays in them, the plant has no stops"

@@ -1,0 +1,217 @@
+"""A robot file from what was found: the one place that knows which keys a robot file has.
+
+What is found but has no key yet is listed by :func:`not_said`: full inertia, joint ranges and so
+on are kept in ``LegGeometry`` until there is one.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from apnc.importing.joint_map import JointMap
+from apnc.importing.legs import LegGeometry
+from apnc.importing.model import ModelFileError
+from apnc.importing.scaling import Guessed
+from apnc.importing.stance import Stance
+from apnc_core.types import Array
+from apnc_plant.robot import MassProperties
+
+DIGITS: Final = 14
+"""Significant digits of a number in the file."""
+
+THINNEST: Final = 1e-3
+"""Smallest edge of a box, as a share of its largest: inertia of a rod is that of a thin box."""
+
+LIGHTEST: Final = 1e-4
+"""Mass of a link that has none in the file, as a share of the robot's."""
+
+_OTHER: Final = 0.02
+"""Difference between outline and box of the trunk that is told, as a share of the largest edge."""
+
+_TOLD: Final = 0.02
+"""Change of an inertia by the box that is told."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """All that was found of a robot, in the order of the robot file.
+
+    Args:
+        name: of the robot.
+        trunk: mass properties of the trunk in its frame.
+        outline: box around the simple shapes of the trunk: its middle and its edges [m], shape
+            (2, 3); None without shapes.
+        names: of the legs.
+        legs: the legs.
+        stance: how they stand.
+        joints: how their joints are counted in the file.
+        guessed: what the file does not say.
+    """
+
+    name: str
+    trunk: MassProperties
+    outline: Array | None
+    names: tuple[str, ...]
+    legs: tuple[LegGeometry, ...]
+    stance: Stance
+    joints: tuple[JointMap, ...]
+    guessed: Guessed
+
+
+@dataclass(frozen=True)
+class Text:
+    """A robot file.
+
+    Args:
+        toml: its text.
+        dropped: what of the masses it cannot say, in words.
+    """
+
+    toml: str
+    dropped: tuple[str, ...]
+
+
+def robot_text(found: Found, source: str) -> Text:
+    """The robot file.
+
+    Args:
+        found: what was found.
+        source: name of the model file, for the first line.
+
+    Raises:
+        ModelFileError: a link has a mass but no inertia that a body can have.
+    """
+    boxes = _Boxes(
+        LIGHTEST * (found.trunk.mass + sum(b.mass for g in found.legs for b in g.bodies))
+    )
+    trunk = boxes.box("trunk", found.trunk)
+    trunk["center"] = found.trunk.com if found.outline is None else found.outline[0]
+    trunk["com_side_offset"] = found.guessed.com_side_offset
+    legs = [
+        _leg(leg, boxes, math.degrees(femur), math.degrees(tibia))
+        for leg, femur, tibia in zip(
+            found.legs, found.stance.femur, found.stance.tibia, strict=True
+        )
+    ]
+    written = [{key: _value(value) for key, value in leg.items()} for leg in legs]
+    common = {
+        key: value for key, value in written[0].items()
+        if key != "mount" and all(leg[key] == value for leg in written)
+    }  # fmt: skip
+    lines = [
+        f"# Imported from {source}. SI units, angles in degrees; x forward, y to the left, z up.",
+        "# Behind '# in the file' stand its joints; q is the angle here, in rad.",
+        f"# At {found.guessed.rate:.3g} Hz (--rate) it moves as Lilibot does at 60 Hz.",
+        "",
+        f"name = {json.dumps(found.name, ensure_ascii=False)}",
+        *_table("trunk", {key: _value(value) for key, value in trunk.items()}),
+    ]
+    if common:
+        lines += _table("leg", common)
+    for name, leg in zip(found.names, written, strict=True):
+        own = {key: value for key, value in leg.items() if key not in common}
+        joints = ", ".join(each.words() for each in found.joints if each.leg == name)
+        own = {"name": json.dumps(name), **own}
+        lines += ["", f"# in the file: {joints}", *_table("[legs]", own)[1:]]
+    for table in ("servo", "contact", "sensor", "controller"):
+        values: Mapping[str, Any] = getattr(found.guessed, table)
+        lines += _table(table, {key: _value(value) for key, value in values.items()})
+    return Text(
+        "\n".join(lines) + "\n", (*boxes.said(), *_other_outline(found.outline, trunk["size"]))
+    )
+
+
+def _leg(leg: LegGeometry, boxes: _Boxes, femur_angle: float, tibia_angle: float) -> dict[str, Any]:
+    side = -1.0 if leg.right else 1.0
+    outward = np.array([1.0, side, 1.0])
+    links = {
+        key: {**(box := boxes.box(name, body)), "com": box["com"] * outward}
+        for key, name, body in zip(("hip", "femur", "tibia"), leg.names, leg.bodies, strict=True)
+    }
+    return {
+        "mount": leg.mount,
+        "hip_offset": leg.hip_offset * outward,
+        "femur_length": leg.femur,
+        "tibia_length": leg.tibia,
+        "femur_angle": femur_angle,
+        "tibia_angle": tibia_angle,
+        **links,
+    }
+
+
+def _other_outline(outline: Array | None, size: Array) -> list[str]:
+    """The outline of the trunk, where it is not that of the box with its inertia."""
+    if outline is None or np.abs(outline[1] - size).max() < _OTHER * size.max():
+        return []
+    own, box = (" x ".join(f"{edge:.3g}" for edge in edges) for edges in (outline[1], size))
+    return [f"outline of the trunk, {own} m: falls are told by the box of its inertia, {box} m"]
+
+
+class _Boxes:
+    """Boxes with the inertia of bodies, and what they leave out."""
+
+    def __init__(self, lightest: float) -> None:
+        self._lightest = lightest
+        self._across: tuple[float, str] = (0.0, "")
+        self._thick: tuple[float, str] = (0.0, "")
+        self._massless: list[str] = []
+
+    def box(self, name: str, body: MassProperties) -> dict[str, Any]:
+        """Mass, edges and centre of mass of the box with these moments of inertia."""
+        if body.mass <= 0.0:
+            self._massless.append(name)
+            edge = math.sqrt(self._lightest) * 0.1
+            return {"mass": self._lightest, "size": np.full(3, edge), "com": np.zeros(3)}
+        moments = np.diag(body.inertia)
+        squares = 6.0 / body.mass * (moments.sum() - 2.0 * moments)
+        largest = math.sqrt(max(float(squares.max()), 0.0))
+        if not largest > 0.0:
+            raise ModelFileError(
+                f"{name}: it has {body.mass:.3g} kg and the inertia "
+                f"{[float(f'{m:.3g}') for m in moments]} kg m^2; allowed: moments above 0, none "
+                "larger than the sum of the others"
+            )
+        size = np.maximum(np.sqrt(np.maximum(squares, 0.0)), THINNEST * largest)
+        made = body.mass / 12.0 * ((size**2).sum() - size**2)
+        scale = float(moments.max())
+        across = float(np.abs(body.inertia - np.diag(moments)).max()) / scale
+        self._across = max(self._across, (across, name))
+        self._thick = max(self._thick, (float(np.abs(made - moments).max()) / scale, name))
+        return {"mass": body.mass, "size": size, "com": body.com}
+
+    def said(self) -> list[str]:
+        """What the boxes leave out, in words."""
+        words = []
+        for (share, name), what in (
+            (self._across, "products of inertia, which a box has not"),
+            (self._thick, "moments of inertia that no box has"),
+        ):
+            if share > _TOLD:
+                words.append(f"{what}: up to {share:.0%} of the largest moment, in {name}")
+        if self._massless:
+            words.append(
+                f"{len(self._massless)} links move without mass "
+                f"({self._massless[0]} and so on): {self._lightest:.2g} kg each"
+            )
+        return words
+
+
+def _value(value: Any) -> str:
+    """A value as TOML."""
+    if isinstance(value, str):
+        return json.dumps(value)
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_value(v)}" for key, v in value.items()) + " }"
+    if isinstance(value, Sequence | np.ndarray):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return repr(float(f"{float(value):.{DIGITS}g}") + 0.0)
+
+
+def _table(name: str, values: Mapping[str, str]) -> list[str]:
+    return ["", f"[{name}]", *(f"{key} = {value}" for key, value in values.items())]

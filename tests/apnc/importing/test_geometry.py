@@ -1,0 +1,245 @@
+"""An imported robot moves as the file's own does in MuJoCo, in poses drawn at random."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("mujoco")
+
+import mujoco
+from dog import FEMUR, FOOT_AHEAD, HIP_OUT, KNEE_OUT, MOUNT, NAMES, RADIUS, SHANK, Dog
+
+from apnc.importing import ImportedRobot, import_robot
+from apnc.importing.model import rotation
+
+MJCF = """
+<mujoco model="mutt">
+  <compiler angle="degree" eulerseq="zyx"/>
+  <default>
+    <joint damping="0.5" armature="0.03"/>
+    <geom density="5000"/>
+    <default class="hip"><joint axis="0 1 0" range="-100 150"/></default>
+    <default class="knee">
+      <joint axis="0 -1 0" range="20 150" ref="40"/><geom type="mesh" mesh="lost"/>
+    </default>
+  </default>
+  <asset><mesh name="lost" file="nowhere/lost.stl"/><material name="fur"/></asset>
+  <worldbody>
+    <light pos="0 0 3"/><geom type="plane" size="1 1 1"/>
+    <body name="torso" pos="0 0 1">
+      <freejoint/>
+      <inertial pos="0.01 0 0" mass="9" fullinertia="0.06 0.12 0.14 0 0 0"/>
+      <geom type="box" size="0.3 0.1 0.05" material="fur"/>
+      <site name="imu"/>
+      {legs}
+    </body>
+  </worldbody>
+  <actuator>{motors}</actuator>
+  <keyframe><key name="home" qpos="0 0 1 1 0 0 0 {home}"/></keyframe>
+</mujoco>
+"""
+
+LEG = """
+<body name="{n}_hip" pos="{x} {y} 0">
+  <inertial pos="0 0 0" mass="0.7" diaginertia="0.001 0.001 0.001"/>
+  <joint name="{n}_a" axis="{s} 0 0" range="-40 40" pos="-0.02 0 0"/>
+  <body name="{n}_thigh" pos="0 {out} 0" euler="0 10 0">
+    <inertial pos="0 0 -0.1" mass="0.8" diaginertia="0.004 0.004 0.001"/>
+    <joint name="{n}_h" class="hip"/>
+    <body name="{n}_shin" pos="0 0 -0.25">
+      <inertial pos="0 0 -0.1" mass="0.2" diaginertia="0.002 0.002 0.0001"/>
+      <joint name="{n}_k" class="knee"/>
+      <geom class="knee"/>
+      <geom name="{n}_paw" type="capsule" fromto="0 0 -0.1 0.01 0 -0.24" size="0.02"/>
+    </body>
+  </body>
+</body>
+"""
+
+
+def mjcf() -> str:
+    legs, motors, home = [], [], []
+    for n, x, y in (("A", 0.25, 0.1), ("B", 0.25, -0.1), ("C", -0.25, 0.1), ("D", -0.25, -0.1)):
+        s = np.sign(y)
+        legs.append(LEG.format(n=n, x=x, y=y, out=0.06 * s, s=s))
+        home += ["0", "0.7", "1.2"]
+        for joint in "ahk":
+            motors.append(f'<motor joint="{n}_{joint}" ctrlrange="-25 25" ctrllimited="true"/>')
+    text = MJCF.replace("{legs}", "".join(legs)).replace("{motors}", "".join(motors))
+    return text.replace("{home}", " ".join(home))
+
+
+def feet(found: ImportedRobot, angles: dict[tuple[str, str], float]) -> dict[str, np.ndarray]:
+    """Feet in the frame of the trunk, of the robot file, at angles from its reference pose [m]."""
+    at = {}
+    x, y = np.eye(3)[:2]
+    for leg in found.robot.legs:
+        q = [angles[leg.name, joint] for joint in ("abduction", "hip", "knee")]
+        femur = leg.femur_angle - q[1]
+        shank = femur - leg.tibia_angle - q[2]
+        point = rotation(y, femur) @ [0.0, 0.0, -leg.femur_length]
+        point = point + rotation(y, shank) @ [0.0, 0.0, -leg.tibia_length]
+        at[leg.name] = leg.mount + rotation(x, q[0]) @ (leg.outward(leg.hip_offset) + point)
+    return at
+
+
+def compare(found: ImportedRobot, spec: Any, trunk: str, foot: Any) -> None:
+    """Compare feet with those of MuJoCo in poses drawn at random.
+
+    Args:
+        foot: from the names of a leg's joints and the data of MuJoCo to the foot in the world.
+    """
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    random = np.random.default_rng(1)
+    for _ in range(5):
+        angles = {(j.leg, j.joint): random.uniform(-0.5, 0.5) for j in found.joints}
+        for j in found.joints:
+            at = model.joint(j.name).qposadr[0]
+            data.qpos[at] = j.offset + j.sign * angles[j.leg, j.joint] + model.qpos0[at]
+        mujoco.mj_kinematics(model, data)
+        body = data.body(trunk)
+        for leg, point in feet(found, angles).items():
+            names = [j.name for j in found.joints if j.leg == leg]
+            turn = np.asarray(body.xmat).reshape(3, 3)
+            there = turn.T @ (foot(names, model, data) - body.xpos)
+            np.testing.assert_allclose(point, there, atol=1e-9)
+
+
+def test_a_urdf_with_mirrored_axes_and_turned_frames_moves_as_in_mujoco(tmp_path: Path) -> None:
+    path = tmp_path / "dog.urdf"
+    path.write_text(Dog().text())
+    found = import_robot(path)
+    spec = mujoco.MjSpec.from_string(Dog().text())
+    spec.compiler.fusestatic = False
+    spec.compiler.boundmass = spec.compiler.boundinertia = 1e-9
+
+    def foot(names: list[str], model: Any, data: Any) -> Any:
+        return data.body(names[0].replace("haa", "foot")).xpos
+
+    # the base of the dog is a frame on which the trunk is fixed
+    compare(found, spec, "base", foot)
+
+
+def test_the_numbers_of_the_dog_are_those_it_was_made_of(tmp_path: Path) -> None:
+    path = tmp_path / "dog.urdf"
+    path.write_text(Dog().text())
+    found = import_robot(path)
+    robot = found.robot
+    assert [leg.name for leg in robot.legs] == ["RF", "RH", "LF", "LH"]
+    assert [leg.names[0] for leg in found.legs] == ["fr_hip", "hr_hip", "fl_hip", "hl_hip"]
+    for leg in robot.legs:
+        x, y, z = MOUNT
+        mount = np.array([x, y, z]) * [1.0 if leg.name.endswith("F") else -1.0, leg.side, 1.0]
+        np.testing.assert_allclose(leg.mount, mount + [0.01, 0.0, 0.02], atol=1e-12)
+        np.testing.assert_allclose(leg.hip_offset, [0.0, HIP_OUT + KNEE_OUT, 0.0], atol=1e-12)
+        assert leg.femur_length == pytest.approx(FEMUR)
+        assert leg.tibia_length == pytest.approx(np.hypot(FOOT_AHEAD, SHANK))
+    assert robot.contact.foot_radius == RADIUS
+    assert robot.servo.stall_torque == 30.0
+    assert robot.servo.no_load_speed == 20.0
+
+
+def test_arm_rotors_and_fixed_parts_keep_mass_and_centre_of_mass(tmp_path: Path) -> None:
+    path = tmp_path / "dog.urdf"
+    path.write_text(Dog().text())
+    found = import_robot(path)
+    model = mujoco.MjModel.from_xml_string(
+        Dog().text().replace("</robot>", '<mujoco><compiler boundmass="1e-9" boundinertia="1e-9" '
+                             'fusestatic="false"/></mujoco></robot>')
+    )  # fmt: skip
+    data = mujoco.MjData(model)
+    data.joint("arm_pitch").qpos[0] = 0.3  # 0 is not in its range
+    for j in found.joints:
+        data.joint(j.name).qpos[0] = j.offset
+    mujoco.mj_fwdPosition(model, data)
+    assert found.robot.mass == pytest.approx(model.body_mass.sum(), abs=1e-6)
+    np.testing.assert_allclose(center_of_mass(found), data.subtree_com[0], atol=1e-7)
+    told = " ".join(found.dropped)
+    assert "arm_yaw is held" in told
+    assert "1 kg" in told
+
+
+def center_of_mass(found: ImportedRobot) -> np.ndarray:
+    robot, y = found.robot, np.array([0.0, 1.0, 0.0])
+    total = robot.trunk.mass * np.array(robot.trunk.com)
+    for leg in robot.legs:
+        hip = np.add(leg.mount, leg.outward(leg.hip_offset))
+        back = rotation(y, leg.femur_angle)
+        knee = hip + back @ [0.0, 0.0, -leg.femur_length]
+        shank = rotation(y, leg.femur_angle - leg.tibia_angle)
+        total = total + leg.hip.mass * np.add(leg.mount, leg.outward(leg.hip.com))
+        total = total + leg.femur.mass * (hip + back @ leg.outward(leg.femur.com))
+        total = total + leg.tibia.mass * (knee + shank @ leg.outward(leg.tibia.com))
+    return np.asarray(total / robot.mass)
+
+
+def test_the_stance_is_that_of_the_rule(tmp_path: Path) -> None:
+    path = tmp_path / "dog.urdf"
+    path.write_text(Dog().text())
+    found = import_robot(path)
+    assert found.stance.ratio == pytest.approx(1.05)
+    half = MOUNT[0]
+    standing = feet(found, {(j.leg, j.joint): 0.0 for j in found.joints})
+    points = np.array(list(standing.values()))
+    hips = np.mean([np.add(leg.mount, leg.hip_offset)[2] for leg in found.robot.legs])
+    assert hips - points[:, 2] == pytest.approx(1.05 * half)
+    assert center_of_mass(found)[0] - points[:, 0].mean() == pytest.approx(0.25 * half)
+
+
+def test_a_mjcf_without_its_meshes_moves_as_in_mujoco(tmp_path: Path) -> None:
+    path = tmp_path / "mutt.xml"
+    path.write_text(mjcf())
+    found = import_robot(path)
+    spec = mujoco.MjSpec.from_string(mjcf())
+    for geom in [geom for body in spec.bodies for geom in body.geoms if geom.meshname]:
+        spec.delete(geom)
+    for mesh in list(spec.meshes):
+        spec.delete(mesh)
+
+    def foot(names: list[str], model: Any, data: Any) -> Any:
+        paw = data.geom(names[0].replace("_a", "_paw"))
+        half = model.geom(paw.id).size[1]
+        axis = np.asarray(paw.xmat).reshape(3, 3)[:, 2]
+        ends = [paw.xpos + half * axis, paw.xpos - half * axis]
+        knee = data.joint(names[2]).xanchor
+        return max(ends, key=lambda end: np.linalg.norm(end - knee))
+
+    compare(found, spec, "torso", foot)
+
+
+def test_the_mass_of_a_mjcf_is_that_of_its_inertials(tmp_path: Path) -> None:
+    path = tmp_path / "mutt.xml"
+    path.write_text(mjcf())
+    robot = import_robot(path).robot
+    assert robot.mass == pytest.approx(9.0 + 4 * 1.7)
+    np.testing.assert_allclose(robot.trunk.inertia(), np.diag([0.06, 0.12, 0.14]), atol=1e-12)
+    assert robot.servo.stall_torque == 25.0
+    assert robot.servo.reflected_inertia == pytest.approx(0.03)
+
+
+def test_a_named_pose_is_the_reference_pose(tmp_path: Path) -> None:
+    path = tmp_path / "mutt.xml"
+    path.write_text(mjcf())
+    found = import_robot(path, "home")
+    offsets = {j.name: j.offset for j in found.joints}
+    # a joint counts from its ref in the file
+    home = {"a": 0.0, "h": 0.7, "k": 1.2 - np.deg2rad(40.0)}
+    for name, offset in offsets.items():
+        assert offset == pytest.approx(home[name[-1]]), name
+    assert found.robot.controller["b1"] == 0.0
+
+
+def test_names_in_the_file_do_not_matter(tmp_path: Path) -> None:
+    path = tmp_path / "dog.urdf"
+    path.write_text(Dog().text())
+    other = tmp_path / "other.urdf"
+    other.write_text(Dog(names=("w", "x", "y", "z")).text())
+    own = import_robot(path).toml.replace("dog.urdf", "other.urdf")
+    for a, b in zip(NAMES, "wxyz", strict=True):
+        own = own.replace(f"{a}_", f"{b}_")
+    assert import_robot(other).toml == own
