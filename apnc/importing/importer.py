@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import tempfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -96,7 +96,7 @@ def _read(path: Path) -> Model:
 def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
     angles = {}
     if pose is not None:
-        poses = {ZERO: {}} | dict(model.poses)
+        poses: dict[str, Mapping[str, float]] = {ZERO: {}, **model.poses}
         if pose not in poses:
             raise ModelFileError(f"pose is {pose!r}; allowed: {', '.join(poses)}")
         angles = dict(poses[pose])

@@ -34,7 +34,7 @@ class Frame:
 
     def at(self, point: Array) -> Array:
         """A point of this frame in the outer one [m], shape (3,)."""
-        return self.position + self.turn @ point
+        return np.asarray(self.position + self.turn @ point)
 
     def inverse(self) -> Frame:
         """Placement of the outer frame in this one."""
@@ -50,7 +50,9 @@ def rotation(axis: Array, angle: float) -> Array:
     """
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * (cross @ cross)
+    return np.asarray(
+        np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * (cross @ cross)
+    )
 
 
 @dataclass(frozen=True)

@@ -87,9 +87,8 @@ def robot_text(found: Found, source: str) -> Text:
     Raises:
         ModelFileError: a link has a mass but no inertia that a body can have.
     """
-    boxes = _Boxes(
-        LIGHTEST * (found.trunk.mass + sum(b.mass for g in found.legs for b in g.bodies))
-    )
+    mass = found.trunk.mass + sum(body.mass for leg in found.legs for body in leg.bodies)
+    boxes = _Boxes(LIGHTEST * mass)
     trunk = boxes.box("trunk", found.trunk)
     trunk["center"] = found.trunk.com if found.outline is None else found.outline[0]
     trunk["com_side_offset"] = found.guessed.com_side_offset
@@ -122,9 +121,8 @@ def robot_text(found: Found, source: str) -> Text:
     for table in ("servo", "contact", "sensor", "controller"):
         values: Mapping[str, Any] = getattr(found.guessed, table)
         lines += _table(table, {key: _value(value) for key, value in values.items()})
-    return Text(
-        "\n".join(lines) + "\n", (*boxes.said(), *_other_outline(found.outline, trunk["size"]))
-    )
+    outline = _other_outline(found.outline, trunk["size"])
+    return Text("\n".join(lines) + "\n", (*boxes.said(), *outline))
 
 
 def _leg(leg: LegGeometry, boxes: _Boxes, femur_angle: float, tibia_angle: float) -> dict[str, Any]:

@@ -226,7 +226,7 @@ def _foot_at(leg: LegGeometry, femur: float, tibia: float) -> Array:
     back = femur - tibia
     x = -leg.femur * math.sin(femur) - leg.tibia * math.sin(back)
     z = -leg.femur * math.cos(femur) - leg.tibia * math.cos(back)
-    return leg.hip_joint + np.array([x, 0.0, z])
+    return np.asarray(leg.hip_joint + np.array([x, 0.0, z]))
 
 
 def _center_of_mass(

@@ -81,11 +81,11 @@ def read_urdf(root: Element, path: Path) -> Model:
     parts: list[Part] = []
     waiting: deque[tuple[str, int, Element | None]] = deque([(base, -1, None)])
     while waiting:
-        name, parent, element = waiting.popleft()
+        name, carrier, element = waiting.popleft()
         frame = Frame() if element is None else _frame(element)
-        joint = None if element is None else _joint(element, servo)
+        moving = None if element is None else _joint(element, servo)
         shapes = _shapes(links[name], name)
-        parts.append(Part(name, parent, frame, _inertial(links[name]), joint, shapes))
+        parts.append(Part(name, carrier, frame, _inertial(links[name]), moving, shapes))
         waiting.extend(
             (_link_of(each, "child", links), len(parts) - 1, each) for each in below[name]
         )

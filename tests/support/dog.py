@@ -1,4 +1,4 @@
-"""A made-up dog as URDF: four legs with mirrored axes, turned frames and offsets, an arm, rotors."""
+"""A made-up dog as URDF: mirrored axes, turned frames, offsets, an arm and rotors."""
 
 from __future__ import annotations
 

@@ -134,8 +134,9 @@ def test_the_numbers_of_the_dog_are_those_it_was_made_of(tmp_path: Path) -> None
     assert [leg.names[0] for leg in found.legs] == ["fr_hip", "hr_hip", "fl_hip", "hl_hip"]
     for leg in robot.legs:
         x, y, z = MOUNT
-        mount = np.array([x, y, z]) * [1.0 if leg.name.endswith("F") else -1.0, leg.side, 1.0]
-        np.testing.assert_allclose(leg.mount, mount + [0.01, 0.0, 0.02], atol=1e-12)
+        ahead = 1.0 if leg.name.endswith("F") else -1.0
+        mount = [0.01 + ahead * x, leg.side * y, 0.02 + z]
+        np.testing.assert_allclose(leg.mount, mount, atol=1e-12)
         np.testing.assert_allclose(leg.hip_offset, [0.0, HIP_OUT + KNEE_OUT, 0.0], atol=1e-12)
         assert leg.femur_length == pytest.approx(FEMUR)
         assert leg.tibia_length == pytest.approx(np.hypot(FOOT_AHEAD, SHANK))
