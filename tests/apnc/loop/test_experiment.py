@@ -76,6 +76,22 @@ def test_the_preset_of_the_robot_is_its_own_and_settings_win() -> None:
     assert next(rates) != next(rates)
 
 
+def test_settings_of_a_controller_stand_between_those_of_robot_and_experiment() -> None:
+    name = "gamma_tegotae"
+    robot = replace(load_robot("lilibot"), controller={name: 0.7})
+    assert Experiment(robot=robot).parameters()[name] == 0.7
+    for label, gain in (("tegotae", 0.015), ("tegotae_best", 0.15)):
+        found = Experiment(robot=robot, controller=label)
+        assert (found.parameters()[name], found.controller_name) == (gain, label)
+        assert found.parameters()["method"] is Method.tegotae
+        assert Experiment(controller=label, preset="paper").parameters()[name] == gain
+    set_too = Experiment(robot=robot, controller="tegotae", settings={name: 0.2})
+    assert set_too.parameters()[name] == 0.2
+    same = Experiment(controller="tegotae", settings={name: 0.15})
+    assert same.key() == Experiment(controller="tegotae_best").key()
+    assert same.command() == "apnc walk --controller tegotae --set=gamma_tegotae=0.15"
+
+
 def test_the_weight_is_that_of_the_robot() -> None:
     for name in ("lilibot", "hexapod", "octopod"):
         robot = load_robot(name)

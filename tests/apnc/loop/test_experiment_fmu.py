@@ -116,6 +116,17 @@ def test_what_is_set_wins(own: str) -> None:
     assert record.parameters == found.parameters()
 
 
+def test_its_method_and_settings_hold_unless_a_controller_is_named() -> None:
+    fmu = built({"method": "tegotae", "gamma_tegotae": 0.07})
+    found = Experiment(fmu=fmu)
+    assert found.controller is None and found.controller_name == "tegotae"
+    assert found.parameters()["method"] is Method.tegotae
+    assert found.parameters()["gamma_tegotae"] == 0.07
+    assert Experiment(fmu=fmu, controller="tegotae").parameters()["gamma_tegotae"] == 0.015
+    longer = replace(found, duration=1.0)
+    assert longer.parameters() == found.parameters()
+
+
 def test_a_preset_that_is_named_wins_but_sets_nothing_of_the_run(own: str) -> None:
     for preset in ("paper", "lilibot"):
         found = Experiment(fmu=own, preset=preset)

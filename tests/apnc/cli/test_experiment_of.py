@@ -53,8 +53,14 @@ def value_of(v: Any) -> st.SearchStrategy[Any]:
 
 
 PARAMETERS = [v for v in variables_of(Causality.parameter) if v.name not in ("Ts", "method")]
+
+
 SETTINGS = st.fixed_dictionaries({}, optional={v.name: value_of(v) for v in PARAMETERS})
+
+
 SLOPES = st.floats(-1.5, 1.5)
+
+
 GROUNDS = st.one_of(
     st.builds(Plane, slope=SLOPES),
     st.builds(Obstacles, slope=SLOPES, roughness=st.floats(0, 1), seed=st.integers(0, 10**9)),
@@ -74,6 +80,8 @@ def own_fmu() -> str:
 
 
 FOLDER = tempfile.TemporaryDirectory()
+
+
 EXPERIMENTS = st.builds(
     Experiment,
     robot=st.just("lilibot"),
@@ -173,6 +181,21 @@ def test_a_summary_gives_its_parameters_to_another_run(tmp_path: Path) -> None:
     after = said("--params", str(path), "--set", "xi=0.5", "--rate", "50", "--controller", "apc")
     assert after.settings == {**before.settings, "xi": 0.5}
     assert (after.rate, after.controller) == (50.0, "apc")
+
+
+def test_a_controller_that_is_named_replaces_that_of_a_summary_with_its_settings(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "summary.json"
+    path.write_text(json.dumps(what_was_run(Experiment(controller="tegotae_best"))))
+    assert said("--params", str(path)).parameters()["gamma_tegotae"] == 0.15
+    for label in ("tegotae", "apnc"):
+        found = said("--params", str(path), "--controller", label)
+        assert found.parameters() == Experiment(controller=label).parameters()
+    own = Experiment(controller="tegotae_best", settings={"gamma_tegotae": 0.4})
+    path.write_text(json.dumps(what_was_run(own)))
+    found = said("--params", str(path), "--controller", "tegotae")
+    assert found.parameters()["gamma_tegotae"] == 0.4  # set in that walk, so it is taken
 
 
 def test_the_weight_of_another_robot_is_not_taken(tmp_path: Path) -> None:

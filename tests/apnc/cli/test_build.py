@@ -1,0 +1,86 @@
+"""``apnc build``: an FMU with the start values that were asked for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from command_line import run
+
+from apnc import Gait, write_gait
+from apnc_plant.robot import ROBOTS, load_robot
+
+
+def test_a_built_fmu_starts_with_what_was_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import fmpy  # noqa: PLC0415
+
+    monkeypatch.chdir(tmp_path)
+    write_gait(Gait(("RF", "RH", "LF", "LH"), (3.1, 3.2, 0.1)), Path("gait.json"))
+    Path("own.toml").write_text("xi = 0.07\nrobot_weight = 30.0")
+    code, _, err = run(
+        capsys, "build", "--platform", "host", "--gait", "gait.json", "--params", "own.toml",
+        "--set", "robot_weight=33", "--controller", "tegotae", "--enumerations", "integer",
+    )  # fmt: skip
+    assert code == 0, err
+    start = {v.name: v.start for v in fmpy.read_model_description("Apnc.fmu").modelVariables}
+    names = ("xi", "robot_weight", "method", "gamma_tegotae", "phi_stored[2]")
+    assert [float(start[name]) for name in names] == [0.07, 33.0, 3.0, 0.015, 3.2]
+    assert start["stored"] == "true"
+
+
+@pytest.mark.parametrize(
+    ("words", "legs"),
+    [
+        ((), "RF, RH, LF, LH"),
+        (("--legs", "6"), "RF, RM, RH, LF, LM, LH"),
+        (("--robot", "own.toml"), "FR, RH, LF, LH"),
+        (("--legs", "5"), "R1, R2, L1, L2, L3"),
+    ],
+)
+def test_a_built_fmu_takes_no_gait_of_other_legs(
+    words: tuple[str, ...],
+    legs: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("own.toml").write_text((ROBOTS / "lilibot.toml").read_text().replace('"RF"', '"FR"'))
+    write_gait(Gait(("LF", "RF", "LH", "RH"), (3.1, 3.2, 0.1)), Path("gait.json"))
+    code, _, err = run(capsys, "build", *words, "--gait", "gait.json")
+    assert code == 2
+    assert f"the gait is of legs LF, RF, LH, RH; the robot has {legs}" in err
+    assert not Path("Apnc.fmu").exists()
+
+
+@pytest.mark.parametrize("words", [("--legs", "6"), ("--robot", "hexapod")])
+def test_the_fmu_of_a_robot_starts_with_the_preset_of_its_file(
+    words: tuple[str, ...],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    import fmpy  # noqa: PLC0415
+
+    monkeypatch.chdir(tmp_path)
+    robot = load_robot("hexapod")
+    code, _, err = run(capsys, "build", "--platform", "host", *words)
+    assert code == 0, err
+    start = {v.name: v.start for v in fmpy.read_model_description("Apnc.fmu").modelVariables}
+    assert robot.controller and "leg[6].grf" in start and "leg[7].grf" not in start
+    assert {name: float(start[name]) for name in robot.controller} == dict(robot.controller)
+    assert float(start["robot_weight"]) == pytest.approx(robot.weight)
+
+
+def test_a_release_is_wired(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def release(folder: Path, progress: object) -> list[Path]:
+        return [folder / "one.fmu", folder / "SHA256SUMS"]
+
+    monkeypatch.setattr("build_fmu.release.release", release)
+    code, out, _ = run(capsys, "build", "--release", str(tmp_path / "files"))
+    assert (code, out) == (0, f"{tmp_path / 'files'}: one.fmu, SHA256SUMS\n")
+    assert (tmp_path / "files").is_dir()

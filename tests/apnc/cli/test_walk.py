@@ -1,0 +1,91 @@
+"""``apnc walk``: what it writes and says."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+if os.name == "nt":
+    pytest.skip("uses a terminal and limits of the system", allow_module_level=True)
+
+import resource
+
+from command_line import run
+from stiff import stiff_robot
+from terminal import APNC, apnc
+
+
+def test_walk_writes_what_it_promises(tmp_path: Path) -> None:
+    done = apnc("walk", "--duration", "3", "--json", "out/copy.json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "report: apnc-walk/report.html" in done.stdout
+    folder = tmp_path / "apnc-walk"
+    assert {path.name for path in folder.iterdir()} == {"summary.json", "record.csv", "report.html"}
+    assert (tmp_path / "out/copy.json").read_text() == (folder / "summary.json").read_text()
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["command"] == "apnc walk --duration 3"
+    assert summary["duration_s"] == 3.0
+    with (folder / "record.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 180
+    assert float(rows[60]["time"]) == pytest.approx(1.0)
+    assert {"RF.o1", "phi12", "kappa", "position.x", "LH.foot_force.z"} <= set(rows[0])
+
+
+def test_same_seed_same_record_other_seed_other_record(tmp_path: Path) -> None:
+    for name, seed in (("a", "1"), ("b", "1"), ("c", "2")):
+        apnc("walk", "--duration", "2", "--seed", seed, "--output", name, cwd=tmp_path)
+    a, b, c = ((tmp_path / name / "record.csv").read_bytes() for name in "abc")
+    assert a == b
+    assert a != c
+
+
+def test_a_fall_is_said_and_has_its_own_code(tmp_path: Path) -> None:
+    words = ("--duration", "9", "--slope", "60")
+    done = apnc("walk", *words, cwd=tmp_path)
+    assert done.returncode == 1, done.stderr
+    summary = json.loads((tmp_path / "apnc-walk" / "summary.json").read_text())
+    assert summary["end"] == "fell" and summary["duration_s"] < 9.0
+    said = f"fell at {summary['duration_s']:.2f} s; what was recorded is in apnc-walk"
+    assert said in done.stderr
+    assert "fell" in done.stdout
+
+
+def test_a_run_that_diverges_is_not_interrupted_and_shows_no_huge_numbers(tmp_path: Path) -> None:
+    (tmp_path / "stiff.toml").write_text(stiff_robot())
+    done = apnc("walk", "--robot", "stiff.toml", "--duration", "9", cwd=tmp_path)
+    assert done.returncode == 1, done.stderr
+    assert "diverged at" in done.stderr and "interrupted" not in done.stderr + done.stdout
+    assert "e+" not in done.stdout
+    assert json.loads((tmp_path / "apnc-walk" / "summary.json").read_text())["end"] == "diverged"
+
+
+def test_a_full_disk_names_the_file_and_leaves_the_older_run(tmp_path: Path) -> None:
+    assert apnc("walk", "--duration", "1", cwd=tmp_path).returncode == 0
+    folder = tmp_path / "apnc-walk"
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+
+    def little_room() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (600_000, 600_000))
+
+    done = subprocess.run(
+        [*APNC, "walk", "--duration", "25"],
+        cwd=tmp_path, capture_output=True, text=True, check=False, preexec_fn=little_room,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "apnc-walk/record.csv" in done.stderr.splitlines()[-1]
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_a_walk_refuses_fmi_3_in_a_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run(capsys, "build", "--platform", "host", "--fmi", "3")
+    code, _, err = run(capsys, "walk", "--fmu", "Apnc.fmu", "--duration", "1")
+    assert code == 2 and "Apnc.fmu: FMI 3.0; a walk takes FMI 2.0" in err
