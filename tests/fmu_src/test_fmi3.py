@@ -223,6 +223,20 @@ def test_flat_names_make_every_entry_a_scalar(flat: Path) -> None:
     assert all(v.dimensions == [] for v in variables)
 
 
+def test_the_start_of_a_scalar_depends_on_its_own_parameters(flat: Path) -> None:
+    with zipfile.ZipFile(flat) as archive:
+        root = etree.fromstring(archive.read("modelDescription.xml"))
+    depends = {
+        int(unknown.get("valueReference", "")): unknown.get("dependencies")
+        for unknown in root.iterfind("ModelStructure/InitialUnknown")
+    }
+    stored, phi = REFERENCE["stored"], REFERENCE["phi_stored"]
+    for k in range(3):
+        assert depends[REFERENCE["phi_memory"] + k] == f"{stored} {phi + k}"
+    outputs = [s for s in scalars(4, "flat") if s.variable.causality is Causality.output]
+    assert depends.keys() == {s.value_reference for s in outputs}
+
+
 def test_scalars_have_the_values_of_the_arrays(flat: Path) -> None:
     legs = [REFERENCE["grf"] + k for k in range(4)]
     shown = [v for v in TABLE if v.causality is Causality.output and v.type is Type.real]
