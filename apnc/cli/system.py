@@ -9,7 +9,7 @@ from typing import Annotated
 
 from typer import Context, Option
 
-from apnc.cli.console import say, status, writable
+from apnc.cli.console import apart, file_option, given, say, status, writable
 from apnc.controllers import CONTROLLERS
 
 _CONTROLLERS = ", ".join(CONTROLLERS)
@@ -19,7 +19,7 @@ _NAMING = "Names of variables: structured (leg[1].grf) or flat (leg1_grf)."
 def build_plant(
     robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
     output: Annotated[
-        Path | None, Option(help="File to write. Default: the robot's name, LilibotPlant.fmu.")
+        Path | None, file_option("File to write. Default: the robot's name, LilibotPlant.fmu.")
     ] = None,
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
     fmi: Annotated[int, Option(help="Version of the FMI standard, 2 or 3.")] = 2,
@@ -38,6 +38,7 @@ def build_plant(
     from build_fmu.writing import write_atomically
 
     with status("building") as shown:
+        apart({"--output": output}, given(robot=robot))
         wanted = PlantBuild(robot, naming, fmi, platform_names(platform), enumerations, reals)
         output = writable(output or Path(f"{plant_model(robot)}.fmu"), file=True)
         path = plant_fmu(wanted, lambda name: shown.update(f"compiling for {name}"))
@@ -48,7 +49,7 @@ def build_plant(
 def build_system(
     context: Context,
     output: Annotated[
-        Path | None, Option(help="Archive to write. Default: the robot's name, Lilibot.ssp.")
+        Path | None, file_option("Archive to write. Default: the robot's name, Lilibot.ssp.")
     ] = None,
     robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
@@ -88,6 +89,7 @@ def build_system(
     from apnc_plant.conditions import named_conditions
 
     with status("building"):
+        apart({"--output": output}, given(robot=robot, gait=gait))
         numbers = dict(filter(None, map(plant_setting, setting or ())))
         own = [text for text in setting or () if plant_setting(text) is None]
         words = context.params | {"mi": str(mi), "turn": str(turn), "setting": own}

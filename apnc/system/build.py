@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from pathlib import Path
 from typing import Final
 
@@ -16,7 +16,7 @@ from apnc.system.header import HEADER_FILE, header
 from apnc.system.osp import OSP_FILE, osp
 from apnc.system.plant_fmu import plant_fmu
 from apnc.system.ssp import SSD_FILE, ssd, ssv, ssv_file
-from apnc.system.structure import plant_build, structure_of
+from apnc.system.structure import RESOURCES, plant_build, structure_of
 from apnc_core.settings import Setting
 from build_fmu.build import cached_fmu
 from build_fmu.options import BuildOptions
@@ -94,7 +94,21 @@ def build_system(
         raise ValueError(f"output {output} does not end in .ssp")
     files = system_files(experiment, naming, platforms, numbers)
     folder = output.with_suffix("")
+    _remove_older_fmus(folder, files)
     for name, content in files.items():
         write_atomically(folder / name, content)
     write_atomically(output, zip_fmu({n: c for n, c in files.items() if n not in _BESIDE}))
     return folder
+
+
+def _remove_older_fmus(folder: Path, files: Container[str]) -> None:
+    """Remove the FMUs of an older system in the folder that the new one does not replace."""
+    try:
+        older = etree.parse(folder / SSD_FILE)
+    except (OSError, etree.XMLSyntaxError):  # no system, or what a killed build has left
+        return
+    named = {part.get("source") for part in older.iter("{*}Component")}
+    for fmu in (folder / RESOURCES).glob("*.fmu"):
+        name = f"{RESOURCES}/{fmu.name}"
+        if name in named and name not in files:
+            fmu.unlink()

@@ -73,6 +73,8 @@ def test_no_command_shows_the_help() -> None:
         (["walk", "--json", "new/"], "'--json': new/ is a folder; allowed: a file"),
         (["walk", "--mcap", "new/"], "'--mcap': new/ is a folder"),
         (["build", "--output", "new/"], "'--output': new/ is a folder"),
+        (["build-plant", "--output", "new/"], "'--output': new/ is a folder"),
+        (["build-system", "--output", "new/"], "'--output': new/ is a folder"),
         (["gait", "save", "run", "new/"], "new/ is a folder"),
         (["walk", "--json", "x", "--mcap", "x"], "--mcap x would overwrite a file of --json"),
         (["walk", "--json", "a/../x", "--mcap", "./x"], "would overwrite a file of --json"),
@@ -87,6 +89,8 @@ def test_no_command_shows_the_help() -> None:
         (["walk", "--gait", "g.json", "--json", "g.json"], "overwrite a file of --gait"),
         (["build", "--params", "p.ssv", "--output", "p.ssv"], "overwrite a file of --params"),
         (["build", "--robot", "r.toml", "--output", "r.toml"], "overwrite a file of --robot"),
+        (["build-plant", "--robot", "r.toml", "--output", "r.toml"], "overwrite a file of --robot"),
+        (["build-system", "--gait", "g.ssp", "--output", "g.ssp"], "overwrite a file of --gait"),
         (
             ["export-robot", "--robot", "r.toml", "--output", "./r.toml"],
             "--output r.toml would overwrite a file of --robot",

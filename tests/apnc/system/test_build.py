@@ -62,6 +62,16 @@ def test_its_files_are_those_of_ssp_1(name: str, schema: str, folder: Path) -> N
     assert etree.parse(folder / name).getroot().get("version") == "1.0"
 
 
+def test_a_folder_used_again_keeps_no_fmu_of_the_older_system(tmp_path: Path) -> None:
+    folder = build_system(tmp_path / "X.ssp", Experiment())
+    for own in ("Own.fmu", "notes.txt"):
+        (folder / "resources" / own).write_text("of the user")
+    build_system(tmp_path / "X.ssp", Experiment(robot="hexapod"))
+    found = {path.name for path in (folder / "resources").iterdir()}
+    system = {"Apnc.fmu", "HexapodPlant.fmu", "controller.ssv", "plant.ssv"}
+    assert found == system | {"Own.fmu", "notes.txt"}
+
+
 def test_connectors_are_variables_of_the_fmus(folder: Path) -> None:
     root = etree.parse(folder / "SystemStructure.ssd").getroot()
     units = {u.get("name") for u in root.iterfind(f"{SSP}Units/*")}
