@@ -64,7 +64,7 @@ class Circuits:
 
 
 @dataclass
-class Memory:
+class StoredGait:
     """The stored gait: relative phases phi_1k [rad], and whether one is stored."""
 
     phi: Array
@@ -97,7 +97,7 @@ class Controller:
                 f"{self.n_legs} legs take {relations} or none"
             )
         phi = np.array(self.p.phi_stored if self.p.stored else [], dtype=np.float64)
-        self.memory = Memory(phi if phi.size else np.zeros(relations), self.p.stored)
+        self.stored = StoredGait(phi if phi.size else np.zeros(relations), self.p.stored)
         self.ticks = 0
         self.MI = _start("MI")
         self.turn = _start("turn")
@@ -164,7 +164,7 @@ class Controller:
             g2=g2,
             fault=fault,
             phi=wrap(angle, -0.5 * math.pi),
-            phi_memory=self.memory.phi,
+            phi_memory=self.stored.phi,
             d=d,
             kappa=kappa,
             tick=self.ticks,
@@ -187,17 +187,17 @@ class Controller:
         settled = self.switch.settled(d, self.p)
         if self.p.method != Method.apnc:
             return 0.0
-        if settled and not self.memory.on:
-            self.memory = Memory(wrap(angle, -0.5 * math.pi), True)
+        if settled and not self.stored.on:
+            self.stored = StoredGait(wrap(angle, -0.5 * math.pi), True)
         if self.p.kappa_rule == KappaRule.printed:
-            self.memory.on = settled
-        return 1.0 if self.memory.on else 0.0
+            self.stored.on = settled
+        return 1.0 if self.stored.on else 0.0
 
     def _coupling(self, angle: Array, kappa: float) -> tuple[Array, Array]:
         if kappa == 0.0:
             return np.zeros(self.n_legs), np.zeros(self.n_legs)
         p = self.p
-        phi = self.memory.phi if p.phi_frozen else angle
+        phi = self.stored.phi if p.phi_frozen else angle
         sign = 1.0 if p.coupling_sign == CouplingSign.printed else -1.0
         g1 = neural_coupling.couple(self.circuits.o1, phi, p.xi)
         g2 = neural_coupling.couple(self.circuits.o2, phi, p.xi)
@@ -220,7 +220,7 @@ class Controller:
         c = self.circuits
         theta_hip, theta_knee = motor_neurons.command(c.o1, c.o2, scale, self.p)
         zero = np.zeros(self.n_legs)
-        on = self.memory.on and self.p.method == Method.apnc
+        on = self.stored.on and self.p.method == Method.apnc
         return Outputs(
             theta_hip=theta_hip,
             theta_knee=theta_knee,
@@ -234,7 +234,7 @@ class Controller:
             g2=zero,
             fault=fault,
             phi=np.zeros(self.n_legs - 1),
-            phi_memory=self.memory.phi,
+            phi_memory=self.stored.phi,
             d=0.0,
             kappa=1.0 if on else 0.0,
             tick=self.ticks,

@@ -56,13 +56,13 @@ typedef struct {
     apnc_real cos_phi[APNC_LEGS];  /* [1] */
     int32_t on;                    /* there are stored relations and kappa is 1 */
     int32_t unused;
-} apnc_memory;
+} apnc_stored_gait;
 
 typedef struct {
     apnc_circuits circuits;
     apnc_acquisition acquisition;
     apnc_estimation estimation;
-    apnc_memory memory;
+    apnc_stored_gait stored;
     apnc_real MI;   /* [1] last usable value of the input */
     apnc_real turn; /* [1] last usable value of the input */
     int64_t ticks;  /* run since the start */
@@ -71,10 +71,10 @@ typedef struct {
 /* Parameters and inputs at their start values. */
 void apnc_defaults(apnc_data *data);
 
-/* Fresh controller: circuits at their start state, memory as the parameters say; fills out. */
+/* Fresh controller: circuits at their start state, the stored gait of the parameters; fills out. */
 void apnc_init(const apnc_parameters *p, apnc_state *state, apnc_outputs *out);
 
-/* Circuits back to their start state; the memory stays. */
+/* Circuits back to their start state; the stored gait stays. */
 void apnc_reset(const apnc_parameters *p, apnc_state *state);
 
 /* Tick n: outputs at n from the state and the inputs at n, then the state at n + 1. */

@@ -31,7 +31,7 @@ PARAMETERS = variables_of(Causality.parameter)
         ("Ts", 1.0, 1.0),
     ],
 )
-def test_a_value_comes_back_in_the_type_of_its_row(
+def test_a_value_comes_back_in_the_type_of_its_parameter(
     name: str, value: object, expected: object
 ) -> None:
     result = checked(name, value)

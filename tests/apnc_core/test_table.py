@@ -50,7 +50,7 @@ def test_value_references_do_not_depend_on_the_number_of_legs() -> None:
     assert all(of6[name] == reference for name, reference in of4.items())
 
 
-def test_every_row_is_complete() -> None:
+def test_every_variable_is_complete() -> None:
     for v in TABLE:
         assert v.description
         assert (v.start is None) == (v.causality in (Causality.output, Causality.local))

@@ -13,7 +13,7 @@ from build_fmu import generate
 
 RELEASED = 57
 FINGERPRINT = "208f20102477736e"
-"""Of the rows that are out in the world. New rows come after them; then pin those as well."""
+"""Of the released variables. New ones come after them; then they are pinned as well."""
 
 
 def fingerprint(n: int) -> str:
@@ -21,7 +21,7 @@ def fingerprint(n: int) -> str:
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
 
 
-def test_no_row_moved() -> None:
+def test_no_variable_moved() -> None:
     assert fingerprint(RELEASED) == FINGERPRINT
 
 
@@ -33,7 +33,7 @@ def test_a_few_of_them_as_importers_know_them() -> None:
     assert found["phi[2]"] == 5001
 
 
-def test_numbers_are_counted_on_and_each_row_has_one() -> None:
+def test_numbers_are_counted_on_and_each_variable_has_one() -> None:
     assert list(VARIABLE_NUMBERS.values()) == list(range(len(VARIABLE_NUMBERS)))
     assert {v.name for v in TABLE} <= set(VARIABLE_NUMBERS)
     assert VR_STRIDE * len(VARIABLE_NUMBERS) <= VR_TIME
@@ -42,7 +42,7 @@ def test_numbers_are_counted_on_and_each_row_has_one() -> None:
 NEW = Variable("new", "", "new", Causality.local, "discrete", unit="1", nominal=1.0)
 
 
-def test_a_row_put_in_front_gets_the_next_number(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_variable_put_in_front_gets_the_next_number(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(generate, "TABLE", (NEW, *TABLE))
     assert generate.variable_numbers() == VARIABLE_NUMBERS | {"new": len(VARIABLE_NUMBERS)}
     text = generate.render()
@@ -52,7 +52,7 @@ def test_a_row_put_in_front_gets_the_next_number(monkeypatch: pytest.MonkeyPatch
     assert f"| `K_s` | {VR_STRIDE * VARIABLE_NUMBERS['K_s']} |" in text["docs/variables.md"]
 
 
-def test_a_row_that_is_no_more_leaves_its_number_empty(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_removed_variable_leaves_its_number_empty(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(generate, "TABLE", tuple(v for v in TABLE if v.name != "bias"))
     assert generate.variable_numbers() == VARIABLE_NUMBERS
     text = generate.render()["fmu_src/core/apnc_variables.c"]

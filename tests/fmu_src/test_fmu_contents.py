@@ -42,8 +42,8 @@ def contents(fmu4: Path) -> dict[str, bytes]:
 def test_documentation_names_every_variable(legs: int, naming: str) -> None:
     page = html.fromstring(files(built(legs, naming))["documentation/index.html"])
     shown = {code.text for code in page.iter("code")}
-    for row in TABLE:
-        entries = [s.name for s in scalars(legs, naming) if s.variable is row]
+    for v in TABLE:
+        entries = [s.name for s in scalars(legs, naming) if s.variable is v]
         label = entries[0] if len(entries) == 1 else f"{entries[0]} ... {entries[-1]}"
         assert label in shown
     names = {s.name for s in scalars(legs, naming)}

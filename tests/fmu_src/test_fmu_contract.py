@@ -12,7 +12,7 @@ from fmpy.fmi1 import FMICallException
 from slave import TS, FMU2Probe, slave
 
 from apnc_core.interface import Parameters
-from apnc_core.schema import Causality, Type
+from apnc_core.schema import Causality, Type, Variable
 from apnc_core.variables import variables_of
 
 START_HIP = 0.25 + Parameters().a1 * Parameters().o1_start
@@ -121,10 +121,10 @@ def test_unusable_load_counts_as_zero_and_is_reported_once(fmu4: Path, bad: floa
     ],
     ids=lambda v: v.name,
 )
-def test_every_range_is_enforced_by_name(fmu4: Path, v: object) -> None:
-    name = v.scalar_name(0)  # type: ignore[attr-defined]  # a row
-    high = len(v.enumeration.items) if v.enumeration else v.max  # type: ignore[attr-defined]  # a row
-    low = 1 if v.enumeration else v.min  # type: ignore[attr-defined]  # a row
+def test_every_range_is_enforced_by_name(fmu4: Path, v: Variable) -> None:
+    name = v.scalar_name(0)
+    high = len(v.enumeration.items) if v.enumeration else v.max
+    low = 1 if v.enumeration else v.min
     for bad in (low - 1, high + 1):
         with slave(fmu4) as fmu:
             fmu.setupExperiment()

@@ -465,13 +465,13 @@ typedef struct {
     apnc_real cos_phi[APNC_LEGS];  /* [1] */
     int32_t on;                    /* there are stored relations and kappa is 1 */
     int32_t unused;
-} apnc_memory;
+} apnc_stored_gait;
 
 typedef struct {
     apnc_circuits circuits;
     apnc_acquisition acquisition;
     apnc_estimation estimation;
-    apnc_memory memory;
+    apnc_stored_gait stored;
     apnc_real MI;   /* [1] last usable value of the input */
     apnc_real turn; /* [1] last usable value of the input */
     int64_t ticks;  /* run since the start */
@@ -480,10 +480,10 @@ typedef struct {
 /* Parameters and inputs at their start values. */
 static void apnc_defaults(apnc_data *data);
 
-/* Fresh controller: circuits at their start state, memory as the parameters say; fills out. */
+/* Fresh controller: circuits at their start state, the stored gait of the parameters; fills out. */
 static void apnc_init(const apnc_parameters *p, apnc_state *state, apnc_outputs *out);
 
-/* Circuits back to their start state; the memory stays. */
+/* Circuits back to their start state; the stored gait stays. */
 static void apnc_reset(const apnc_parameters *p, apnc_state *state);
 
 /* Tick n: outputs at n from the state and the inputs at n, then the state at n + 1. */
@@ -817,14 +817,14 @@ static apnc_real limited(apnc_real value, apnc_real low, apnc_real high, apnc_re
     return value < low ? low : value > high ? high : value;
 }
 
-static void store(apnc_memory *memory, const apnc_real *phi) {
-    memcpy(memory->phi, phi, sizeof memory->phi);
-    apnc_relation(phi, memory->sin_phi, memory->cos_phi);
-    memory->on = 1;
+static void store(apnc_stored_gait *stored, const apnc_real *phi) {
+    memcpy(stored->phi, phi, sizeof stored->phi);
+    apnc_relation(phi, stored->sin_phi, stored->cos_phi);
+    stored->on = 1;
 }
 
 static int couplings_on(const apnc_parameters *p, const apnc_state *state) {
-    return p->method == APNC_METHOD_APNC && state->memory.on;
+    return p->method == APNC_METHOD_APNC && state->stored.on;
 }
 
 /* Outputs that follow from the circuits' state alone. */
@@ -847,7 +847,7 @@ static void observe(const apnc_parameters *restrict p, const apnc_state *restric
 static void observe_rest(const apnc_parameters *p, const apnc_state *state, apnc_outputs *out) {
     memset(out, 0, sizeof *out);
     observe(p, state, out);
-    memcpy(out->phi_memory, state->memory.phi, sizeof out->phi_memory);
+    memcpy(out->phi_memory, state->stored.phi, sizeof out->phi_memory);
     out->kappa = couplings_on(p, state) ? 1 : 0;
 }
 
@@ -856,7 +856,7 @@ static void apnc_init(const apnc_parameters *p, apnc_state *state, apnc_outputs 
     state->MI = APNC_MI_START;
     state->turn = APNC_TURN_START;
     apnc_reset(p, state);
-    if (p->stored) store(&state->memory, p->phi_stored);
+    if (p->stored) store(&state->stored, p->phi_stored);
     observe_rest(p, state, out);
 }
 
@@ -864,7 +864,7 @@ static void apnc_init(const apnc_parameters *p, apnc_state *state, apnc_outputs 
 static void communicate(const apnc_parameters *restrict p, apnc_state *restrict state,
                         apnc_real *restrict angle, apnc_outputs *restrict out) {
     const apnc_circuits *c = &state->circuits;
-    apnc_memory *memory = &state->memory;
+    apnc_stored_gait *stored = &state->stored;
     if (p->phase_measure == APNC_PHASE_MEASURE_PEAK)
         apnc_acquire_peak(&state->acquisition, c->o1, angle);
     else
@@ -874,10 +874,10 @@ static void communicate(const apnc_parameters *restrict p, apnc_state *restrict 
 
     const int settled = apnc_settled(&state->estimation, p, out->d);
     if (p->method == APNC_METHOD_APNC) {
-        if (settled && !memory->on) store(memory, out->phi);
-        if (p->kappa_rule == APNC_KAPPA_RULE_PRINTED) memory->on = settled;
+        if (settled && !stored->on) store(stored, out->phi);
+        if (p->kappa_rule == APNC_KAPPA_RULE_PRINTED) stored->on = settled;
     }
-    memcpy(out->phi_memory, memory->phi, sizeof out->phi_memory);
+    memcpy(out->phi_memory, stored->phi, sizeof out->phi_memory);
     out->kappa = couplings_on(p, state) ? 1 : 0;
 }
 
@@ -923,12 +923,12 @@ static void feed_back(const apnc_parameters *restrict p, const apnc_circuits *re
     memset(out->g2, 0, sizeof out->g2);
 }
 
-static void couple(const apnc_parameters *p, const apnc_memory *memory, const apnc_real *angle,
+static void couple(const apnc_parameters *p, const apnc_stored_gait *stored, const apnc_real *angle,
                    const trigonometry *t, apnc_outputs *out) {
     const apnc_real gain = p->coupling_sign == APNC_COUPLING_SIGN_PRINTED ? p->xi : -p->xi;
     apnc_real sin_phi[APNC_LEGS], cos_phi[APNC_LEGS];
-    memcpy(sin_phi, memory->sin_phi, sizeof sin_phi);
-    memcpy(cos_phi, memory->cos_phi, sizeof cos_phi);
+    memcpy(sin_phi, stored->sin_phi, sizeof sin_phi);
+    memcpy(cos_phi, stored->cos_phi, sizeof cos_phi);
     if (!p->phi_frozen) apnc_relation(angle, sin_phi, cos_phi);
     apnc_couple(gain, t->sin_o1, t->cos_o1, sin_phi, cos_phi, out->g1);
     apnc_couple(gain, t->sin_o2, t->cos_o2, sin_phi, cos_phi, out->g2);
@@ -1018,7 +1018,7 @@ static void apnc_tick(const apnc_parameters *p, apnc_state *state, const apnc_in
         communicate(p, state, angle, out);
         evaluate(c, out->kappa > 0, &t);
         feed_back(p, c, F, &t, out);
-        if (out->kappa > 0) couple(p, &state->memory, angle, &t, out);
+        if (out->kappa > 0) couple(p, &state->stored, angle, &t, out);
         advance(p, state, F, out);
     }
     memcpy(out->fault, fault, sizeof fault);
