@@ -100,6 +100,11 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
         if pose not in poses:
             raise ModelFileError(f"pose is {pose!r}; allowed: {', '.join(poses)}")
         angles = dict(poses[pose])
+    for part in model.parts:
+        if part.body.mass < 0.0:
+            raise ModelFileError(
+                f"{part.name}: its mass is {part.body.mass:g} kg; allowed: 0 or more"
+            )
     limbs = limbs_of(model, angles)
     legs = _ordered([leg_geometry(leg) for leg in limbs.legs])
     names = _names(legs)

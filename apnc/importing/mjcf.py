@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib.util
 import math
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -29,7 +30,7 @@ from apnc.importing.model import (
     Shape,
     moved,
 )
-from apnc.importing.xml_file import LARGEST, Element, elements, read_xml
+from apnc.importing.xml_file import LARGEST, Element, described, elements, read_xml
 from apnc_core.types import Array
 from apnc_plant.robot import MassProperties
 
@@ -67,6 +68,7 @@ def read_mjcf(root: Element, path: Path) -> Model:
     if importlib.util.find_spec("mujoco") is None:
         raise ValueError(missing("mujoco", "mujoco"))
     _include(root, path.parent, path.parent.resolve(), DEEPEST, [path.stat().st_size])
+    _check_numbers(root)
     keys = {
         key.get("name"): key.get("qpos") for found in root.iter("keyframe") for key in found
         if key.get("name") and key.get("qpos")
@@ -175,6 +177,16 @@ def _strip(root: Element) -> list[str]:
     return said
 
 
+def _check_numbers(root: Element) -> None:
+    """Refuse numbers that are none: MuJoCo only warns of them, in a log file of its own."""
+    for element in root.iter("*"):
+        for name, text in element.attrib.items():
+            if name != "name" and "nan" in text.lower().split():
+                raise ModelFileError(
+                    f"{described(element)}: {name} is {text!r}; allowed: finite numbers"
+                )
+
+
 def _compiled(root: Element) -> tuple[Any, Any, set[int]]:
     """The file as MuJoCo's specification and model, and the numbers of shapes left out."""
     import mujoco
@@ -193,7 +205,9 @@ def _compiled(root: Element) -> tuple[Any, Any, set[int]]:
         spec.compiler.boundinertia = max(spec.compiler.boundinertia, _SMALLEST_MASS)
         spec.compiler.balanceinertia = True
         spec.compiler.fusestatic = False
-        model = spec.compile()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of the motion, which nobody computes here
+            model = spec.compile()
     except ModelFileError:
         raise
     except (ValueError, RuntimeError, TypeError) as error:
@@ -251,7 +265,7 @@ class _Reader:
             name, shift = self._name("body", body), np.zeros(3)
             for joint in joints:
                 anchor = np.array(model.jnt_pos[joint])
-                placed = Frame(frame.at(anchor - shift), frame.turn)
+                placed = Frame(frame.at(anchor + shift), frame.turn)
                 parts.append(Part(name, index, placed, NO_BODY, self._joint(joint, body)))
                 index, shift, frame = len(parts) - 1, anchor, Frame()
             at = Frame(-shift)
@@ -321,7 +335,7 @@ class _Reader:
             mass, diagonal = float(body.mass), np.array(body.inertia)
             full = np.array(body.fullinertia)
             if np.isfinite(full).all():
-                xx, yy, zz, xy, xz, yz = full
+                xx, yy, zz, xz, xy, yz = full
                 inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
                 return MassProperties(mass, np.array(body.ipos), inertia)
         turn = _frame(np.zeros(3), model.body_iquat[index]).turn

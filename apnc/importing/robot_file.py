@@ -28,6 +28,9 @@ DIGITS: Final = 14
 THINNEST: Final = 1e-3
 """Smallest edge of a box, as a share of its largest: inertia of a rod is that of a thin box."""
 
+SMALLEST: Final = 1e-3
+"""Edges of a link without inertia in the file [m]."""
+
 LIGHTEST: Final = 1e-4
 """Mass of a link that has none in the file, as a share of the robot's."""
 
@@ -159,21 +162,24 @@ class _Boxes:
         self._across: tuple[float, str] = (0.0, "")
         self._thick: tuple[float, str] = (0.0, "")
         self._massless: list[str] = []
+        self._points: list[str] = []
 
     def box(self, name: str, body: MassProperties) -> dict[str, Any]:
         """Mass, edges and centre of mass of the box with these moments of inertia."""
-        if body.mass <= 0.0:
+        if body.mass == 0.0:
             self._massless.append(name)
-            edge = math.sqrt(self._lightest) * 0.1
-            return {"mass": self._lightest, "size": np.full(3, edge), "com": np.zeros(3)}
+            return {"mass": self._lightest, "size": np.full(3, SMALLEST), "com": np.zeros(3)}
         moments = np.diag(body.inertia)
+        if not moments.any():
+            self._points.append(name)
+            return {"mass": body.mass, "size": np.full(3, SMALLEST), "com": body.com}
         squares = 6.0 / body.mass * (moments.sum() - 2.0 * moments)
         largest = math.sqrt(max(float(squares.max()), 0.0))
-        if not largest > 0.0:
+        if not largest > 0.0 or moments.min() < 0.0:
             raise ModelFileError(
                 f"{name}: it has {body.mass:.3g} kg and the inertia "
-                f"{[float(f'{m:.3g}') for m in moments]} kg m^2; allowed: moments above 0, none "
-                "larger than the sum of the others"
+                f"{[float(f'{m:.3g}') for m in moments]} kg m^2; allowed: moments of 0 or more, "
+                "none larger than the sum of the others"
             )
         size = np.maximum(np.sqrt(np.maximum(squares, 0.0)), THINNEST * largest)
         made = body.mass / 12.0 * ((size**2).sum() - size**2)
@@ -196,6 +202,11 @@ class _Boxes:
             words.append(
                 f"{len(self._massless)} links move without mass "
                 f"({self._massless[0]} and so on): {self._lightest:.2g} kg each"
+            )
+        if self._points:
+            words.append(
+                f"{len(self._points)} links have mass but no inertia ({self._points[0]} and so "
+                f"on): boxes with edges of {SMALLEST} m"
             )
         return words
 

@@ -132,7 +132,7 @@ def _frame(element: Element) -> Frame:
     origin = element.find("origin")
     roll, pitch, yaw = numbers(origin, "rpy", 3, np.zeros(3))
     x, y, z = np.eye(3)
-    turn = rotation(z, yaw) @ rotation(y, pitch) @ rotation(x, roll)
+    turn = rotation(x, roll) @ rotation(y, pitch) @ rotation(z, yaw)
     return Frame(numbers(origin, "xyz", 3, np.zeros(3)), turn)
 
 
@@ -142,14 +142,12 @@ def _inertial(link: Element) -> MassProperties:
         return NO_BODY
     frame = _frame(inertial)
     mass = number(inertial.find("mass"), "value", 0.0)
-    if mass < 0.0:
-        raise ModelFileError(f"{described(link)}: mass is {mass}; allowed: 0 or more [kg]")
     entries = inertial.find("inertia")
     xx, xy, xz, yy, yz, zz = (
         number(entries, name, 0.0) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     )
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return MassProperties(mass, frame.position, frame.turn @ inertia @ frame.turn.T)
+    return MassProperties(mass, frame.position, inertia)
 
 
 def _joint(element: Element, servo: Motor) -> Joint | None:

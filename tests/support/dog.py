@@ -39,7 +39,7 @@ class Dog:
             '<robot name="dog">',
             link("base"),
             fixed("base_to_trunk", "base", "trunk", "0.01 0 0.02"),
-            link("trunk", 8.0, (0.02, 0.001, -0.01), (0.05, 0.13, 0.15), collision=box),
+            link("trunk", 8.0, (0.02, 0.001, -0.01), (0.05, 0.13, 0.15), "0.5 -0.3 0.2", box),
         ]
         for name, (ahead, left) in zip(
             self.names, ((1, 1), (1, -1), (-1, 1), (-1, -1)), strict=True
@@ -48,7 +48,7 @@ class Dog:
         if self.arm:
             parts += [
                 link("arm_base", 0.3, (0.0, 0.0, 0.02), (1e-3, 1e-3, 1e-3)),
-                fixed("arm_mount", "trunk", "arm_base", "0.1 0 0.08"),
+                fixed("arm_mount", "trunk", "arm_base", "0.1 0 0.08", rpy="0.3 -0.4 0.5"),
                 link("arm_upper", 0.5, (0.0, 0.0, 0.1), (2e-3, 2e-3, 1e-3)),
                 hinge("arm_yaw", "arm_base", "arm_upper", "0 0 0.05", "0 0 1", (-3, 3)),
                 link("arm_lower", 0.4, (0.1, 0.0, 0.0), (1e-3, 2e-3, 2e-3)),
@@ -114,13 +114,14 @@ def link(
     mass: float = 0.0,
     com: tuple[float, float, float] = (0.0, 0.0, 0.0),
     moments: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    rpy: str = "0 0 0",
     collision: object = None,
 ) -> str:
     inertial = ""
     if mass:
         xx, yy, zz = moments
         inertial = (
-            f'<inertial><origin xyz="{com[0]} {com[1]} {com[2]}" rpy="0 0 0"/>'
+            f'<inertial><origin xyz="{com[0]} {com[1]} {com[2]}" rpy="{rpy}"/>'
             f'<mass value="{mass}"/><inertia ixx="{xx}" ixy="0" ixz="0" iyy="{yy}" iyz="0" '
             f'izz="{zz}"/></inertial>'
         )

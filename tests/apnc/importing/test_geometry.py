@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,9 @@ import mujoco
 from dog import FEMUR, FOOT_AHEAD, HIP_OUT, KNEE_OUT, MOUNT, NAMES, RADIUS, SHANK, Dog
 
 from apnc.importing import ImportedRobot, import_robot
+from apnc.importing.mjcf import read_mjcf
 from apnc.importing.model import rotation
+from apnc.importing.xml_file import read_xml
 
 MJCF = """
 <mujoco model="mutt">
@@ -32,7 +35,7 @@ MJCF = """
     <light pos="0 0 3"/><geom type="plane" size="1 1 1"/>
     <body name="torso" pos="0 0 1">
       <freejoint/>
-      <inertial pos="0.01 0 0" mass="9" fullinertia="0.06 0.12 0.14 0 0 0"/>
+      <inertial pos="0.01 0 0" mass="9" fullinertia="0.06 0.12 0.14 0.001 0.002 0.003"/>
       <geom type="box" size="0.3 0.1 0.05" material="fur"/>
       <site name="imu"/>
       {legs}
@@ -87,6 +90,30 @@ def feet(found: ImportedRobot, angles: dict[tuple[str, str], float]) -> dict[str
     return at
 
 
+def foot_link(names: list[str]) -> str:
+    """The link of the foot of the dog, from the names of a leg's joints."""
+    return names[0].replace("haa", "foot")
+
+
+def paw(names: list[str], model: Any, data: Any) -> Any:
+    """The end of the mutt's capsule that is farther from the knee."""
+    capsule = data.geom(names[0].replace("_a", "_paw"))
+    half = model.geom(capsule.id).size[1]
+    axis = np.asarray(capsule.xmat).reshape(3, 3)[:, 2]
+    ends = [capsule.xpos + half * axis, capsule.xpos - half * axis]
+    knee = data.joint(names[2]).xanchor
+    return max(ends, key=lambda end: float(np.linalg.norm(end - knee)))
+
+
+def without_meshes(text: str) -> Any:
+    spec = mujoco.MjSpec.from_string(text)
+    for geom in [geom for body in spec.bodies for geom in body.geoms if geom.meshname]:
+        spec.delete(geom)
+    for mesh in list(spec.meshes):
+        spec.delete(mesh)
+    return spec
+
+
 def compare(found: ImportedRobot, spec: Any, trunk: str, foot: Any) -> None:
     """Compare feet with those of MuJoCo in poses drawn at random.
 
@@ -118,11 +145,24 @@ def test_a_urdf_with_mirrored_axes_and_turned_frames_moves_as_in_mujoco(tmp_path
     spec.compiler.fusestatic = False
     spec.compiler.boundmass = spec.compiler.boundinertia = 1e-9
 
-    def foot(names: list[str], model: Any, data: Any) -> Any:
-        return data.body(names[0].replace("haa", "foot")).xpos
-
     # the base of the dog is a frame on which the trunk is fixed
-    compare(found, spec, "base", foot)
+    compare(found, spec, "base", lambda names, model, data: data.body(foot_link(names)).xpos)
+
+
+def test_a_hip_axis_that_is_level_only_in_another_pose_is_counted_from_there(
+    tmp_path: Path,
+) -> None:
+    dog = Dog(axes=("1 0 0", "0 0.8 0.6"), arm=False)
+    path = tmp_path / "dog.urdf"
+    path.write_text(dog.text())
+    found = import_robot(path)
+    for j in found.joints:
+        if j.joint == "abduction":
+            assert abs(j.offset) == pytest.approx(np.arctan2(0.6, 0.8))
+    spec = mujoco.MjSpec.from_string(dog.text())
+    spec.compiler.fusestatic = False
+    spec.compiler.boundmass = spec.compiler.boundinertia = 1e-9
+    compare(found, spec, "base", lambda names, model, data: data.body(foot_link(names)).xpos)
 
 
 def test_the_numbers_of_the_dog_are_those_it_was_made_of(tmp_path: Path) -> None:
@@ -160,6 +200,16 @@ def test_arm_rotors_and_fixed_parts_keep_mass_and_centre_of_mass(tmp_path: Path)
     mujoco.mj_fwdPosition(model, data)
     assert found.robot.mass == pytest.approx(model.body_mass.sum(), abs=1e-6)
     np.testing.assert_allclose(center_of_mass(found), data.subtree_com[0], atol=1e-7)
+    behind_legs = re.compile("|".join(f"{name}_" for name in NAMES))
+    carried = [k for k in range(1, model.nbody) if not behind_legs.match(model.body(k).name)]
+    com = model.body_mass[carried] @ data.xipos[carried] / model.body_mass[carried].sum()
+    inertia = np.zeros((3, 3))
+    for k in carried:
+        turn, d = data.ximat[k].reshape(3, 3), data.xipos[k] - com
+        inertia += turn @ np.diag(model.body_inertia[k]) @ turn.T
+        inertia += model.body_mass[k] * (d @ d * np.eye(3) - np.outer(d, d))
+    own = np.diag(found.robot.trunk.inertia())
+    np.testing.assert_allclose(own, np.diag(inertia), rtol=1e-6)
     told = " ".join(found.dropped)
     assert "arm_yaw is held" in told
     assert "1 kg" in told
@@ -196,21 +246,25 @@ def test_a_mjcf_without_its_meshes_moves_as_in_mujoco(tmp_path: Path) -> None:
     path = tmp_path / "mutt.xml"
     path.write_text(mjcf())
     found = import_robot(path)
-    spec = mujoco.MjSpec.from_string(mjcf())
-    for geom in [geom for body in spec.bodies for geom in body.geoms if geom.meshname]:
-        spec.delete(geom)
-    for mesh in list(spec.meshes):
-        spec.delete(mesh)
+    compare(found, without_meshes(mjcf()), "torso", paw)
 
-    def foot(names: list[str], model: Any, data: Any) -> Any:
-        paw = data.geom(names[0].replace("_a", "_paw"))
-        half = model.geom(paw.id).size[1]
-        axis = np.asarray(paw.xmat).reshape(3, 3)[:, 2]
-        ends = [paw.xpos + half * axis, paw.xpos - half * axis]
-        knee = data.joint(names[2]).xanchor
-        return max(ends, key=lambda end: np.linalg.norm(end - knee))
 
-    compare(found, spec, "torso", foot)
+def test_two_joints_in_one_body_turn_about_their_own_points(tmp_path: Path) -> None:
+    text = mjcf().replace(' euler="0 10 0"', "")
+    text = re.sub(r'<joint name="._a".*?/>', "", text)
+    for name, side in (("A", 1), ("B", -1), ("C", 1), ("D", -1)):
+        hip = f'<joint name="{name}_h" class="hip"/>'
+        both = (
+            f'<joint name="{name}_a" axis="{side} 0 0" range="-40 40" pos="-0.02 0.03 0.01"/>'
+            f'<joint name="{name}_h" class="hip" pos="0.01 0 0.02"/>'
+        )
+        assert hip in text
+        text = text.replace(hip, both)
+    path = tmp_path / "mutt.xml"
+    path.write_text(text)
+    found = import_robot(path)
+    compare(found, without_meshes(text), "torso", paw)
+    assert any("links move without mass" in line for line in found.dropped)
 
 
 def test_the_mass_of_a_mjcf_is_that_of_its_inertials(tmp_path: Path) -> None:
@@ -219,6 +273,9 @@ def test_the_mass_of_a_mjcf_is_that_of_its_inertials(tmp_path: Path) -> None:
     robot = import_robot(path).robot
     assert robot.mass == pytest.approx(9.0 + 4 * 1.7)
     np.testing.assert_allclose(robot.trunk.inertia(), np.diag([0.06, 0.12, 0.14]), atol=1e-12)
+    full = [[0.06, 0.001, 0.002], [0.001, 0.12, 0.003], [0.002, 0.003, 0.14]]
+    trunk = read_mjcf(read_xml(path), path).parts[0].body
+    np.testing.assert_array_equal(trunk.inertia, full)
     assert robot.servo.stall_torque == 25.0
     assert robot.servo.reflected_inertia == pytest.approx(0.03)
 
