@@ -7,8 +7,8 @@ All runs of a generation walk in C, side by side. Every candidate is written wit
 
 from __future__ import annotations
 
-import csv
 import importlib
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -20,6 +20,7 @@ from apnc.extras import missing
 from apnc.studies.search.command import run, tracked
 from apnc.studies.search.costs import costs_of, names
 from apnc.studies.search.design import Candidate, DesignVariable, design_variables, start
+from apnc.studies.search.log import keep_logs, read_log, write_table
 from apnc_core.types import Array
 from apnc_plant.robot import load_robot
 
@@ -36,7 +37,9 @@ def search(
     feet: Annotated[
         float, typer.Option(help="Weight of the costs of lift, slip, touch-downs and turn.")
     ] = 1.0,
-    seed: Annotated[int, typer.Option(help="Seed of optimiser and trials.")] = 1,
+    seed: Annotated[  # cma takes 0 for the time of day
+        int, typer.Option(min=1, max=2**32 - 1, help="Seed of optimiser and trials.")
+    ] = 1,
     generations: Annotated[int, typer.Option(min=1, help="Number of generations.")] = 60,
     candidates: Annotated[
         int, typer.Option(min=2, help="Number of candidates in a generation.")
@@ -53,35 +56,42 @@ def search(
 
     Every generation has its own seeds, the same for all of its candidates.
     """
+    if not 0.0 < sigma <= 1.0:
+        raise ValueError(f"sigma = {sigma}; allowed: above 0, up to 1")
+    if not 0.0 <= feet < math.inf:
+        raise ValueError(f"feet = {feet}; allowed: a finite number from 0 on")
+    path = output / "search.csv"
+    keep_logs(path, [begin] if begin else [])
     variables = design_variables(robot, controller, own_robot=own_robot)
     first = [_within(variable.scaled(value)) for variable, value in _begin(robot, variables, begin)]
     strategy = _strategy(first, sigma, seed, candidates)
     output.mkdir(parents=True, exist_ok=True)
     parts = names(len(load_robot(robot).legs))
     weights = [feet if name.startswith("feet") else 1.0 for name in parts]
+    columns = [*(f"cost_{name}" for name in parts), *(variable.name for variable in variables)]
+    table = [["generation", "cost", *columns]]
     mean: Candidate = {}
-    with (output / "search.csv").open("w", newline="", encoding="utf-8") as file:
-        log = csv.writer(file)
-        log.writerow(
-            ["generation", "cost", *(f"cost_{n}" for n in parts), *(k.name for k in variables)]
-        )
-        for generation in tracked(range(generations), generations, "generations"):
-            points = strategy.ask()
-            tried = [_candidate(variables, x) for x in points]
-            found = costs_of(tried, 1000 * seed + generation, robot, controller, workers)
-            # squares: one large cost weighs more than many small ones
-            weighed = np.multiply(found, weights)
-            totals = (weighed + weighed**2).sum(axis=1).tolist()
-            strategy.tell(points, totals)
-            mean = _candidate(variables, strategy.result.xfavorite)
-            middle = [float(np.median(totals)), *np.median(found, axis=0), *mean.values()]
-            for candidate, each, total in zip(tried, found, totals, strict=True):
-                row = [total, *each, *candidate.values()]
-                log.writerow([generation, *(f"{value:.5g}" for value in row)])
-            log.writerow([f"mean{generation}", *(f"{value:.5g}" for value in middle)])
-            file.flush()
+    for generation in tracked(range(generations), generations, "generations"):
+        points = strategy.ask()
+        tried = [_candidate(variables, x) for x in points]
+        found = costs_of(tried, 1000 * seed + generation, robot, controller, workers)
+        # squares: one large cost weighs more than many small ones
+        weighed = np.multiply(found, weights)
+        totals = (weighed + weighed**2).sum(axis=1).tolist()
+        strategy.tell(points, totals)
+        mean = _candidate(variables, strategy.result.xfavorite)
+        for candidate, each, total in zip(tried, found, totals, strict=True):
+            table.append(_line(str(generation), [total, *each, *candidate.values()]))
+        middle = [float(np.median(totals)), *np.median(found, axis=0), *mean.values()]
+        table.append(_line(f"mean{generation}", middle))
+        # an older log stays until there is something to write, and no kill cuts a line short
+        write_table(path, table)
     for name, value in mean.items():
         typer.echo(f"{name} = {value:.4g}")
+
+
+def _line(generation: str, values: Sequence[float]) -> list[str]:
+    return [generation, *(f"{value:.5g}" for value in values)]
 
 
 def _within(x: float) -> float:
@@ -94,11 +104,11 @@ def _begin(
     shipped = load_robot(robot)
     values = {variable.name: start(shipped, variable.name) for variable in variables}
     if log is not None:
-        with log.open(newline="", encoding="utf-8") as file:
-            means = [r for r in csv.DictReader(file) if r.get("generation", "").startswith("mean")]
+        columns, lines = read_log(log)
+        means = [line for line in lines if line.is_mean]
         if not means:
             raise ValueError(f"{log} has no mean of a generation; it is no log of a search")
-        values |= {name: float(means[-1][name]) for name in values if name in means[-1]}
+        values |= means[-1].numbers(name for name in values if name in columns)
     return [(variable, values[variable.name]) for variable in variables]
 
 

@@ -7,7 +7,6 @@ dominates in the five measures of ``BETTER``.
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Final
@@ -24,6 +23,7 @@ from apnc.studies import gait
 from apnc.studies.results import Result
 from apnc.studies.search.command import run, tracked
 from apnc.studies.search.design import Candidate, built_robot, design_variables, gains, start
+from apnc.studies.search.log import keep_logs, read_log, write_table
 from apnc.studies.study import SCHEDULE_MI, WALK_MI
 from apnc_plant.robot import load_robot
 
@@ -79,17 +79,15 @@ def candidates_of(logs: Sequence[Path], count: int, robot: str) -> dict[str, Can
     tried: dict[str, Candidate] = {}
     points = []
     for log in logs:
-        with log.open(newline="", encoding="utf-8") as file:
-            table = csv.DictReader(file)
-            if lacking := [n for n in ("generation", *names) if n not in (table.fieldnames or ())]:
-                raise ValueError(f"{log} has no column '{lacking[0]}'; it is no log of {robot}")
-            for line, result in enumerate(table, start=2):
-                if result["generation"].startswith("mean"):
-                    continue
-                costs = {name: float(v) for name, v in result.items() if name.startswith("cost_")}
-                feet = sum(v for name, v in costs.items() if "feet" in name or "ratio" in name)
-                points.append((sum(costs.values()) - feet, feet))
-                tried[f"{log.parent.name}:{line}"] = {name: float(result[name]) for name in names}
+        columns, lines = read_log(log, names)
+        of_costs = [name for name in columns if name.startswith("cost_")]
+        for line in lines:
+            if line.is_mean:
+                continue
+            costs = line.numbers(of_costs)
+            feet = sum(v for name, v in costs.items() if "feet" in name or "ratio" in name)
+            points.append((sum(costs.values()) - feet, feet))
+            tried[f"{log.parent.name}:{line.number}"] = line.numbers(names)
     labels = list(tried)
     return {labels[n]: tried[labels[n]] for n in best_ranks(points, count)}
 
@@ -182,6 +180,7 @@ def front(
 
     An interrupted run writes the candidates that have walked.
     """
+    keep_logs(output, logs)
     tried = candidates_of(logs, count, robot)
     shipped = load_robot(robot)
     names = [variable.name for variable in design_variables(robot, "apnc")]
@@ -204,12 +203,11 @@ def _write(
     best = non_dominated(
         [[-sign * found[x][name] for name, sign in BETTER.items()] for x in labels]
     )
-    with output.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(["candidate", "front", *found[labels[0]], *tried[labels[0]]])
-        for label, on_it in zip(labels, best, strict=True):
-            values = [f"{value:.5g}" for value in (*found[label].values(), *tried[label].values())]
-            table.writerow([label, int(on_it), *values])
+    table = [["candidate", "front", *found[labels[0]], *tried[labels[0]]]]
+    for label, on_it in zip(labels, best, strict=True):
+        values = [f"{value:.5g}" for value in (*found[label].values(), *tried[label].values())]
+        table.append([label, str(int(on_it)), *values])
+    write_table(output, table)
 
 
 if __name__ == "__main__":

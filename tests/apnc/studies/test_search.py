@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -51,6 +51,7 @@ from apnc.studies.search.front import (
     result_of,
     walks_of,
 )
+from apnc.studies.search.log import read_log
 from apnc_core.types import Array
 from apnc_plant.robot import ROBOTS, load_robot
 
@@ -160,10 +161,18 @@ def log_of(tmp_path: Path, lines: Sequence[str]) -> Path:
 @pytest.mark.parametrize(
     ("arguments", "named"),
     [
+        (("", "--begin", "torn.csv"), "torn.csv line 3: a2 is missing; allowed: a finite number"),
+        (("", "--begin", "odd.csv"), "odd.csv line 2: a2 is 'x'; allowed: a finite number"),
+        (("", "--begin", "search.csv", "--output", "."), "would overwrite the log search.csv"),
+        (("", "--sigma", "0"), "sigma = 0.0; allowed: above 0, up to 1"),
+        (("", "--feet", "nan"), "feet = nan; allowed: a finite number from 0 on"),
+        ((".front", "torn.csv", "--output", "torn.csv"), "would overwrite the log torn.csv"),
+        (("", "--begin", "bytes.csv"), "bytes.csv is no log of a search"),
+        ((".front", "torn.csv"), "torn.csv has no column "),
         (("", "--robot", "cat"), "robot 'cat' is not one of lilibot, "),
         (("", "--controller", "fuzzy"), "controller 'fuzzy' is not one of apnc, "),
-        (("", "--begin", "search.csv"), "search.csv has no mean of a generation"),
-        ((".front", "search.csv"), "search.csv has no column 'a2'; it is no log of lilibot"),
+        (("", "--begin", "other.csv"), "other.csv has no mean of a generation"),
+        ((".front", "search.csv"), "search.csv has no column 'a2'; it is no log of this search"),
         ((".front", "nowhere.csv"), "nowhere.csv"),
     ],
 )
@@ -171,7 +180,14 @@ def test_bad_input_is_one_line_and_exit_code_2(
     tmp_path: Path, arguments: tuple[str, ...], named: str
 ) -> None:
     log_of(tmp_path, ["generation,b1", "0,0.1"])
+    (tmp_path / "other.csv").write_text("generation,b1\n0,0.1\n")
+    (tmp_path / "torn.csv").write_text("generation,b1,a2\n0,0.1,0.2\nmean0,0.1")
+    (tmp_path / "odd.csv").write_text("generation,a2\nmean0,x\n")
+    (tmp_path / "bytes.csv").write_bytes(b"generation,b1\n\xff\xfe")
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
     module, *rest = arguments
+    if not module:
+        rest = ["--output", ".", "--generations", "1", *rest]
     done = subprocess.run(
         [sys.executable, "-m", f"apnc.studies.search{module}", *rest],
         cwd=tmp_path, capture_output=True, text=True, check=False,
@@ -179,6 +195,7 @@ def test_bad_input_is_one_line_and_exit_code_2(
     assert done.returncode == 2
     (line,) = [line for line in done.stderr.splitlines() if line.startswith("error: ")]
     assert named in line and "Traceback" not in done.stderr
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
 def asked(robot: str, controller: str) -> tuple[dict[str, float], list[Experiment]]:
@@ -408,6 +425,34 @@ def test_without_cma_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.setitem(__import__("sys").modules, "cma", None)
     with pytest.raises(RuntimeError, match=r"'cma' is not installed: pip install .*\[search\]"):
         search(tmp_path)
+
+
+def test_a_log_is_whole_or_the_older_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("apnc.studies.search.__main__.costs_of", interrupted_after(1))
+    log = log_of(tmp_path, ["older"])
+    with pytest.raises(KeyboardInterrupt):
+        search(tmp_path, controller="tegotae", generations=3, candidates=2)
+    columns, lines = read_log(log, ["gamma_tegotae"])
+    assert [line.texts["generation"] for line in lines] == ["0", "0", "mean0"]
+    assert all(line.numbers(columns[1:]) for line in lines)
+    monkeypatch.setattr("apnc.studies.search.__main__.costs_of", interrupted_after(0))
+    log = log_of(tmp_path, ["older"])
+    with pytest.raises(KeyboardInterrupt):
+        search(tmp_path, controller="tegotae", generations=3, candidates=2)
+    assert log.read_text() == "older"
+
+
+def interrupted_after(generations: int) -> Callable[..., Array]:
+    """Costs of 0; the signal comes after so many generations."""
+    left = [None] * generations
+
+    def costs_of(candidates: Sequence[object], *_: object) -> Array:
+        if not left:
+            raise KeyboardInterrupt
+        left.pop()
+        return np.zeros((len(candidates), len(names(4))))
+
+    return costs_of
 
 
 def test_workers_make_the_same_search(tmp_path: Path) -> None:
