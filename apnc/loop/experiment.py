@@ -140,6 +140,9 @@ class Experiment:
 
     Numbers and arrays of numpy become numbers and tuples, and paths become texts.
 
+    Pitfall: ``dataclasses.replace(experiment, fmu=...)`` keeps the rate and the controller of the
+    experiment; with ``rate=None, controller=None`` besides, those of the FMU hold.
+
     Raises:
         ValueError: a value outside what is allowed, or names that the robot does not have.
     """

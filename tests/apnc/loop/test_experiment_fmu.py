@@ -103,6 +103,16 @@ def test_what_is_read_back_is_what_an_experiment_set() -> None:
                        record.parameters.items())  # fmt: skip
 
 
+def test_another_fmu_in_an_experiment_brings_its_rate_and_method_if_none_is_asked_for(
+    own: str,
+) -> None:
+    usual = Experiment(duration=1.0)
+    kept: Any = {"rate": None, "controller": None}
+    assert replace(usual, fmu=own, **kept) == Experiment(fmu=own, duration=1.0)
+    assert replace(Experiment(fmu=own, duration=1.0), fmu=None, **kept) == usual
+    assert starts(replace(usual, fmu=own)) == HELD | {"Ts": 1 / 60, "method": Method.apnc}
+
+
 def test_what_is_set_wins(own: str) -> None:
     words = ("--set", "a1=0.2", "--set", "robot_weight=50", "--set", "stored=false")
     found = said(
