@@ -131,7 +131,7 @@ def leg_geometry(leg: tuple[Segment, ...]) -> LegGeometry:
     along = _axis(leg, 1, {})
     side = math.copysign(1.0, float(_axis(leg, 0, {})[0]))
     tilt = math.atan2(float(along[2]), float(along[1]))
-    level = _nearest(side * tilt, math.pi, first)
+    level = _nearest(-side * tilt, math.pi, first)
     if level is None:
         raise ModelFileError(
             f"leg {name}: joint {first.name} would stand at {-side * tilt:.3g} rad, where the hip "

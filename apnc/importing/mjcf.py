@@ -265,7 +265,7 @@ class _Reader:
             name, shift = self._name("body", body), np.zeros(3)
             for joint in joints:
                 anchor = np.array(model.jnt_pos[joint])
-                placed = Frame(frame.at(anchor + shift), frame.turn)
+                placed = Frame(frame.at(anchor - shift), frame.turn)
                 parts.append(Part(name, index, placed, NO_BODY, self._joint(joint, body)))
                 index, shift, frame = len(parts) - 1, anchor, Frame()
             at = Frame(-shift)
@@ -335,7 +335,7 @@ class _Reader:
             mass, diagonal = float(body.mass), np.array(body.inertia)
             full = np.array(body.fullinertia)
             if np.isfinite(full).all():
-                xx, yy, zz, xz, xy, yz = full
+                xx, yy, zz, xy, xz, yz = full
                 inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
                 return MassProperties(mass, np.array(body.ipos), inertia)
         turn = _frame(np.zeros(3), model.body_iquat[index]).turn

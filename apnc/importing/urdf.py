@@ -132,7 +132,7 @@ def _frame(element: Element) -> Frame:
     origin = element.find("origin")
     roll, pitch, yaw = numbers(origin, "rpy", 3, np.zeros(3))
     x, y, z = np.eye(3)
-    turn = rotation(x, roll) @ rotation(y, pitch) @ rotation(z, yaw)
+    turn = rotation(z, yaw) @ rotation(y, pitch) @ rotation(x, roll)
     return Frame(numbers(origin, "xyz", 3, np.zeros(3)), turn)
 
 
@@ -147,7 +147,7 @@ def _inertial(link: Element) -> MassProperties:
         number(entries, name, 0.0) for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     )
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return MassProperties(mass, frame.position, inertia)
+    return MassProperties(mass, frame.position, frame.turn @ inertia @ frame.turn.T)
 
 
 def _joint(element: Element, servo: Motor) -> Joint | None:
