@@ -62,6 +62,8 @@ def test_the_commands_write_what_they_say(
         ["build-plant", "--platform", "host", "--fmi", "3", "--output", "Three.fmu"],
         [
             "build-system",
+            "--platform",
+            "host",
             "--gait",
             "gait.json",
             "--mi",
