@@ -1,0 +1,105 @@
+"""What a file does not say is Lilibot's, scaled so that robots of all sizes move alike."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from apnc.importing import ImportedRobot, import_robot
+from apnc_plant.robot import Body, Leg, RobotDescription, load_robot
+from apnc_plant.robot.urdf import robot_urdf
+
+LONGER, HEAVIER = 3.0, 11.0
+
+
+def larger(robot: RobotDescription) -> RobotDescription:
+    """The robot with all lengths and all masses times the same factors."""
+
+    def body(own: Body) -> Body:
+        return replace(
+            own,
+            mass=own.mass * HEAVIER,
+            size=tuple(edge * LONGER for edge in own.size),
+            com=tuple(x * LONGER for x in own.com),
+        )
+
+    def leg(own: Leg) -> Leg:
+        return replace(
+            own,
+            mount=tuple(x * LONGER for x in own.mount),
+            hip_offset=tuple(x * LONGER for x in own.hip_offset),
+            femur_length=own.femur_length * LONGER,
+            tibia_length=own.tibia_length * LONGER,
+            hip=body(own.hip),
+            femur=body(own.femur),
+            tibia=body(own.tibia),
+        )
+
+    return replace(robot, trunk=body(robot.trunk), legs=tuple(map(leg, robot.legs)))
+
+
+def bare(robot: RobotDescription, folder: Path) -> ImportedRobot:
+    """The robot from a URDF that says nothing of its joints' drives."""
+    text = re.sub(r"<!--.*?-->", "", robot_urdf(robot), flags=re.DOTALL)
+    text = re.sub(r'(effort|velocity)="[^"]*"', r'\1="0"', text)
+    path = folder / "robot.urdf"
+    path.write_text(text)
+    return import_robot(path)
+
+
+def test_lilibot_without_drives_gets_lilibots(tmp_path: Path) -> None:
+    own = load_robot("lilibot")
+    found = bare(own, tmp_path)
+    for name, value in vars(found.robot.servo).items():
+        assert value == pytest.approx(getattr(own.servo, name)), name
+    for name, value in vars(found.robot.contact).items():
+        assert value == pytest.approx(getattr(own.contact, name)), name
+    assert found.robot.sensor.delay == pytest.approx(own.sensor.delay)
+    assert found.robot.trunk.com_side_offset == pytest.approx(own.trunk.com_side_offset)
+    assert found.rate == pytest.approx(60.0)
+
+
+def test_a_larger_robot_moves_alike(tmp_path: Path) -> None:
+    """Forces over weight and times over the root of length are those of Lilibot."""
+    own = load_robot("lilibot")
+    found = bare(larger(own), tmp_path)
+    force, torque, time = HEAVIER, HEAVIER * LONGER, LONGER**0.5
+    servo, contact = found.robot.servo, found.robot.contact
+    for value, original, factor in (
+        (found.robot.mass, own.mass, HEAVIER),
+        (servo.stall_torque, own.servo.stall_torque, torque),
+        (servo.stiffness, own.servo.stiffness, torque),
+        # a drive's own lag does not grow with the robot
+        (servo.damping / servo.stiffness, own.servo.damping / own.servo.stiffness, 1.0),
+        (servo.no_load_speed, own.servo.no_load_speed, 1.0 / time),
+        (servo.reflected_inertia, own.servo.reflected_inertia, torque * time**2),
+        (contact.stiffness, own.contact.stiffness, force / LONGER),
+        (contact.damping, own.contact.damping, force / (LONGER / time)),
+        (contact.damping_depth, own.contact.damping_depth, LONGER),
+        (contact.friction_speed, own.contact.friction_speed, LONGER / time),
+        (found.robot.sensor.delay, own.sensor.delay, time),
+        (found.robot.sensor.time_constant, own.sensor.time_constant, time),
+        (found.rate, 60.0, 1.0 / time),
+    ):
+        assert value == pytest.approx(original * factor)
+
+
+def test_more_legs_bear_less_each(tmp_path: Path) -> None:
+    found = bare(load_robot("octopod"), tmp_path)
+    assert [leg.name for leg in found.robot.legs] == [
+        "RF",
+        "R2",
+        "R3",
+        "RH",
+        "LF",
+        "L2",
+        "L3",
+        "LH",
+    ]
+    lilibot, gains = bare(load_robot("lilibot"), tmp_path), found.robot.controller
+    assert "F_max" not in lilibot.robot.controller
+    assert gains["F_max"] == pytest.approx(0.5)
+    assert gains["alpha"] == pytest.approx(0.45)
