@@ -17,24 +17,16 @@ from apnc.importing.limbs import Limbs, limbs_of
 from apnc.importing.mjcf import read_mjcf
 from apnc.importing.model import Model, ModelFileError
 from apnc.importing.robot_file import Found, robot_text
-from apnc.importing.scaling import Estimate, Guessed, Size, guess
+from apnc.importing.scaling import Estimate, Size, guess
 from apnc.importing.stance import Stance, Swing, stance_by_rule, stance_of_pose
 from apnc.importing.urdf import read_urdf
 from apnc.importing.xml_file import read_xml
 from apnc_core.interface import Parameters
 from apnc_core.types import Array
-from apnc_plant.compiled import foot_mass
-from apnc_plant.ground import GroundInC, Plane
-from apnc_plant.numbers import robot_numbers
-from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
-from apnc_plant.start import start_coordinates
 
 ZERO: Final = "zero"
 """Pose of every file: all joints at 0."""
-
-STEPS: Final = 8
-"""Integration steps of a tick are a multiple of this."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +42,6 @@ class ImportedRobot:
         estimates: numbers that are not the file's.
         dropped: what of the file is not in the robot, in words.
         rate: update rate to walk it at [Hz].
-        step: longest integration step to walk it with [s].
     """
 
     toml: str
@@ -61,7 +52,6 @@ class ImportedRobot:
     estimates: tuple[Estimate, ...]
     dropped: tuple[str, ...]
     rate: float
-    step: float
 
 
 def import_robot(path: str | Path, pose: str | None = None) -> ImportedRobot:
@@ -135,7 +125,6 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
         (*model.dropped, *limbs.folded, *stance.dropped, *guessed.dropped, *text.dropped,
          *_not_said(legs)),
         guessed.rate,
-        longest_step(robot, guessed),
     )  # fmt: skip
 
 
@@ -178,26 +167,6 @@ def _loaded(toml: str) -> RobotDescription:
         path = Path(folder, "robot.toml")
         path.write_text(toml, encoding="utf-8")
         return load_robot(path)
-
-
-def longest_step(robot: RobotDescription, guessed: Guessed) -> float:
-    """Integration step with which friction of the feet is stable [s].
-
-    A tick has at least Ts mu (W/2) / (m v) steps, with the apparent mass m of a foot along the
-    ground and the friction speed v, and no step is longer than the default.
-
-    Args:
-        robot: the robot.
-        guessed: has its update rate.
-    """
-    ground = GroundInC(Plane(), robot.contact.foot_radius)
-    numbers, options = robot_numbers(robot), PlantOptions()
-    mass = foot_mass(robot, numbers, ground, start_coordinates(numbers, ground, options))
-    tick = 1.0 / guessed.rate
-    friction = robot.contact.friction * robot.weight / 2.0
-    steps = tick * friction / (mass * robot.contact.friction_speed)
-    whole = STEPS * math.ceil(max(steps, tick / options.step) / STEPS)
-    return tick / whole
 
 
 def _not_said(legs: Sequence[LegGeometry]) -> Iterable[str]:

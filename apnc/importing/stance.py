@@ -83,7 +83,12 @@ def stance_by_rule(trunk: MassProperties, legs: Sequence[LegGeometry], swing: Sw
         worst = max(out)
         if worst[0] <= 0.0:
             femur, tibia = (tuple(float(pair[k]) for pair in angles) for k in range(2))
-            return Stance(femur, tibia, ratio, FEET_BEHIND)
+            told = (
+                f"the height of the rule, {LEG_PER_SPACING}, at which a joint would leave its "
+                f"range; {ratio:.3g} is the nearest at which none does",
+            )
+            on_rule = abs(ratio - LEG_PER_SPACING) < 1e-9
+            return Stance(femur, tibia, float(ratio), FEET_BEHIND, () if on_rule else told)
         kept.append(worst)
     raise ModelFileError(min(kept)[1])
 

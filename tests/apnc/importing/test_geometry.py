@@ -18,6 +18,7 @@ from apnc.importing import ImportedRobot, import_robot
 from apnc.importing.mjcf import read_mjcf
 from apnc.importing.model import rotation
 from apnc.importing.xml_file import read_xml
+from apnc_core.interface import Parameters
 
 MJCF = """
 <mujoco model="mutt">
@@ -240,6 +241,22 @@ def test_the_stance_is_that_of_the_rule(tmp_path: Path) -> None:
     hips = np.mean([np.add(leg.mount, leg.hip_offset)[2] for leg in found.robot.legs])
     assert hips - points[:, 2] == pytest.approx(1.05 * half)
     assert center_of_mass(found)[0] - points[:, 0].mean() == pytest.approx(0.25 * half)
+
+
+def test_a_stance_that_a_range_forbids_is_replaced_by_the_nearest_and_told(tmp_path: Path) -> None:
+    low, high = 0.4, 1.7
+    path = tmp_path / "dog.urdf"
+    path.write_text(Dog(knee=dict.fromkeys(NAMES, (low, high))).text())
+    found = import_robot(path)
+    swing = Parameters().a2
+    for leg, own in zip(found.robot.legs, found.legs, strict=True):
+        # the line from knee to foot is not the z axis of the calf
+        aside = np.arctan2(FOOT_AHEAD, SHANK)
+        assert own.knee.upper == pytest.approx(high + aside)
+        assert leg.tibia_angle + swing <= high + aside
+        assert leg.tibia_angle + swing > high + aside - 0.05
+    assert found.stance.ratio > 1.05
+    assert any(line.startswith("the height of the rule, 1.05") for line in found.dropped)
 
 
 def test_a_mjcf_without_its_meshes_moves_as_in_mujoco(tmp_path: Path) -> None:

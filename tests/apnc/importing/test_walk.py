@@ -27,10 +27,9 @@ def test_an_imported_dog_walks(tmp_path: Path) -> None:
     path.write_text(found.toml)
     record = apnc.simulate(
         apnc.Experiment(
-            robot=str(path), engine="compiled", duration=20.0, mi=0.15, rate=found.rate,
-            step=found.step,
+            robot=str(path), engine="compiled", duration=20.0, mi=0.15, rate=found.rate
         )
-    )  # fmt: skip
+    )
     features = apnc.walk_features(record)
     assert record.complete
     assert features.gait == "trot"
