@@ -38,14 +38,8 @@ def import_robot(
     _say(robot, file)
     say(
         f"{output}: walk it with\n"
-        f"apnc walk --robot {output} --engine compiled --rate {robot.rate:.3g} "
-        f"--step {_rounded_down(robot.step)}"
+        f"apnc walk --robot {output} --engine compiled --rate {robot.rate:.3g}"
     )
-
-
-def _rounded_down(step: float) -> str:
-    """A step of three digits that is not longer [s]."""
-    return f"{step * 0.9975:.3g}"
 
 
 def _say(found: ImportedRobot, file: Path) -> None:
