@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from apnc.features import WalkFeatures, walk_features
     from apnc.loop.experiment import Experiment
     from apnc.loop.gait import Gait, gait_of_run, read_gait, write_gait
-    from apnc.loop.many import simulate_many
     from apnc.loop.record import End, Record
     from apnc.loop.simulate import simulate
+    from apnc.many import simulate_many
     from apnc.report.folder import write_run as write_report
     from apnc.studies.results import StudyResults
     from apnc.studies.runner import run_study
@@ -35,7 +35,7 @@ _PLACES: Final = {
     "Plant": "apnc_plant.plant",
     **dict.fromkeys(("End", "Record"), "apnc.loop.record"),
     "simulate": "apnc.loop.simulate",
-    "simulate_many": "apnc.loop.many",
+    "simulate_many": "apnc.many",
     "write_report": "apnc.report.folder:write_run",
     "run_study": "apnc.studies.runner",
     "StudyResults": "apnc.studies.results",

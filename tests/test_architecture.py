@@ -1,4 +1,4 @@
-"""Data flows one way: no package imports one that comes after it, the product no laboratory."""
+"""Imports go one way: no package imports one that comes after it, and the product no laboratory."""
 
 from __future__ import annotations
 
@@ -23,15 +23,32 @@ PRODUCT = set(MAY_IMPORT)
 MAY_IMPORT |= {"research": PRODUCT, "benchmarks": PRODUCT | {"research"}, "play": PRODUCT}
 OUTSIDE_OF_CORE = {"numpy"}
 
+PARTS_OF_APNC = (
+    ("controllers", "extras", "metrics"),
+    ("loop",),
+    ("feet",),
+    ("features",),
+    ("many",),
+    ("importing", "report", "system"),
+    ("studies",),
+    ("cli",),
+    ("__main__",),
+)
+"""Folders and modules of ``apnc``. One imports those of the lines before its own only."""
 
-def imported(path: Path) -> set[str]:
+
+def modules_imported(path: Path) -> set[str]:
     names: set[str] = set()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
-            names |= {alias.name.split(".")[0] for alias in node.names}
+            names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
-            names.add(node.module.split(".")[0])
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
     return names
+
+
+def imported(path: Path) -> set[str]:
+    return {name.split(".")[0] for name in modules_imported(path)}
 
 
 @pytest.mark.parametrize("package", MAY_IMPORT)
@@ -41,6 +58,26 @@ def test_no_package_imports_upwards(package: str) -> None:
     for path in files:
         ours = imported(path) & set(MAY_IMPORT) - {package}
         assert ours <= MAY_IMPORT[package], path
+
+
+def test_the_parts_of_apnc_are_in_order() -> None:
+    parts = {
+        path.stem for path in (ROOT / "apnc").iterdir() if path.suffix == ".py" or path.is_dir()
+    }
+    named = [part for line in PARTS_OF_APNC for part in line]
+    assert set(named) == parts - {"__init__", "__pycache__"}
+    assert len(named) == len(set(named))
+
+
+@pytest.mark.parametrize("line", range(len(PARTS_OF_APNC)))
+def test_no_part_of_apnc_imports_a_later_one_or_a_neighbour(line: int) -> None:
+    before = {part for parts in PARTS_OF_APNC[:line] for part in parts}
+    for part in PARTS_OF_APNC[line]:
+        module = ROOT / "apnc" / f"{part}.py"
+        for path in [module] if module.exists() else (ROOT / "apnc" / part).rglob("*.py"):
+            names = {name.split(".")[1] for name in modules_imported(path) if name[:5] == "apnc."}
+            ours = names & {each for parts in PARTS_OF_APNC for each in parts} - {part}
+            assert ours <= before, path
 
 
 def test_the_wheel_holds_the_product_and_nothing_else() -> None:

@@ -27,7 +27,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from apnc.loop.experiment import Experiment
-from apnc.loop.many import simulate_many
+from apnc.many import simulate_many
 from apnc.studies.machine import commit
 from apnc_core.enumerations import ForwardModel
 from apnc_plant.ground import Obstacles, Plane

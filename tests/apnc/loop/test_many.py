@@ -16,9 +16,10 @@ from apnc.features import walk_features
 from apnc.loop import controller_library as loader
 from apnc.loop.batch import Batch, Run, lanes_of
 from apnc.loop.experiment import Experiment
-from apnc.loop.many import compiled, simulate_many, walk_many
+from apnc.loop.many import compiled, walk_many
 from apnc.loop.record import End, Record
 from apnc.loop.simulate import simulate
+from apnc.many import simulate_many
 from apnc_plant.ground import Kerb, Obstacles
 from apnc_plant.robot import load_robot
 
