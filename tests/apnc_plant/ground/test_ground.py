@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from grounds import TOUCHED, WALKED
 
 from apnc_plant.ground import (
     GROUNDS,
@@ -18,14 +19,12 @@ from apnc_plant.ground import (
 )
 
 RADIUS = 0.012
-SOME = (
-    Plane(slope=0.1),
-    Obstacles(roughness=0.8, seed=5),
-    Kerb(at=0.1, height=0.008, length=0.05),
-    Kerb(at=-0.05, height=0.006),
-    Waves(amplitude=0.004, wavelength=0.2),
-)
-every_ground = pytest.mark.parametrize("ground", SOME, ids=repr)
+every_ground = pytest.mark.parametrize("ground", TOUCHED, ids=repr)
+
+
+@pytest.mark.parametrize("tested", [TOUCHED, WALKED], ids=["touched", "walked"])
+def test_every_kind_of_ground_is_tested(tested: tuple[Ground, ...]) -> None:
+    assert {ground.kind for ground in tested} == set(GROUNDS)
 
 
 def places(count: int, seed: int = 0) -> np.ndarray:
