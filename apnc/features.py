@@ -44,7 +44,11 @@ class WalkFeatures:
         complete: whether the run came to its planned end.
         fell: whether the robot fell.
         path_speed_m_per_s: mean speed along the smoothed path of the trunk [m/s].
+        forward_speed_m_per_s: mean speed along the present heading since the touch moment; negative
+            for a walk backwards [m/s].
         turned_deg: turn of the trunk to the left over the whole run [degrees].
+        rightmost_heading_deg: least turn to the left from the first heading on the way [degrees].
+        leftmost_heading_deg: largest turn to the left from the first heading on the way [degrees].
         speed_m_per_s: mean speed along the initial heading [m/s].
         distance_m: net displacement along the initial heading [m].
         late_speed_m_per_s: mean speed along the heading in the last 10 s [m/s].
@@ -65,6 +69,7 @@ class WalkFeatures:
         touch_downs_per_stride: mean over the legs of the next [1].
         touch_downs_by_leg: mean number of touch-downs in a stride [1]; above 1 the foot scuffs.
         foot_lift_mm: height of the foot in mid-swing above its height in stance [mm].
+        foot_lift_share: the same as a share of the leg length, femur and tibia [1].
         slip_per_stride_mm: horizontal way of the foot in the stance of a stride [mm].
         slip_share: the same as a share of the stride length [1].
         balance: 1 / std(roll) + 1 / std(pitch) [1/rad]; larger is steadier.
@@ -84,7 +89,10 @@ class WalkFeatures:
     complete: bool
     fell: bool
     path_speed_m_per_s: float | None
+    forward_speed_m_per_s: float | None
     turned_deg: float | None
+    rightmost_heading_deg: float | None
+    leftmost_heading_deg: float | None
     speed_m_per_s: float | None
     distance_m: float | None
     late_speed_m_per_s: float | None
@@ -103,6 +111,7 @@ class WalkFeatures:
     touch_downs_per_stride: float | None
     touch_downs_by_leg: dict[str, float | None]
     foot_lift_mm: dict[str, float | None]
+    foot_lift_share: dict[str, float | None]
     slip_per_stride_mm: dict[str, float | None]
     slip_share: dict[str, float | None]
     balance: float | None
@@ -135,9 +144,12 @@ def walk_features(record: Record) -> WalkFeatures:
     position, (roll, pitch, yaw) = signals["position"], signals["rpy"].T
     distance, path = metrics.forward_distance(position, yaw), metrics.path_length(position)
     speed, turned = metrics.mean_speed(time, path), metrics.turned(yaw)
+    turns = metrics.heading_range(yaw)
     ahead = metrics.smoothed_speed(time, position, yaw)
+    forward = metrics.forward_speed(time[walked], position[walked], yaw[walked])
     feet, formation = Feet(sound, walked), _formation(sound, touch)
     stride = feet.stride_length
+    leg_length = float(np.mean([leg.femur_length + leg.tibia_length for leg in record.robot.legs]))
     return _finite(
         WalkFeatures(
             controller=record.experiment.controller_name,
@@ -149,7 +161,10 @@ def walk_features(record: Record) -> WalkFeatures:
             complete=record.complete,
             fell=record.end == "fell",
             path_speed_m_per_s=speed,
+            forward_speed_m_per_s=forward,
             turned_deg=None if turned is None else math.degrees(turned),
+            rightmost_heading_deg=None if turns is None else math.degrees(turns[0]),
+            leftmost_heading_deg=None if turns is None else math.degrees(turns[1]),
             speed_m_per_s=metrics.mean_speed(time, distance),
             distance_m=distance,
             late_speed_m_per_s=_mean(ahead[_late(sound)].tolist()),
@@ -168,6 +183,7 @@ def walk_features(record: Record) -> WalkFeatures:
             touch_downs_per_stride=_mean(feet.touch_downs),
             touch_downs_by_leg=_by_leg(legs, feet.touch_downs),
             foot_lift_mm=_by_leg(legs, feet.lifts, 1000.0),
+            foot_lift_share=_by_leg(legs, feet.lifts, 1.0 / leg_length),
             slip_per_stride_mm=_by_leg(legs, feet.slips, 1000.0),
             slip_share=_by_leg(legs, feet.slips, 1.0 / stride) if stride else dict.fromkeys(legs),
             balance=metrics.balance(roll[walked], pitch[walked], speed),

@@ -30,6 +30,8 @@ from apnc.metrics.motion import MIN_SPEED as MIN_SPEED
 from apnc.metrics.motion import balance as balance
 from apnc.metrics.motion import cost_of_transport as cost_of_transport
 from apnc.metrics.motion import forward_distance as forward_distance
+from apnc.metrics.motion import forward_speed as forward_speed
+from apnc.metrics.motion import heading_range as heading_range
 from apnc.metrics.motion import mean_speed as mean_speed
 from apnc.metrics.motion import path_length as path_length
 from apnc.metrics.motion import smoothed_speed as smoothed_speed

@@ -65,6 +65,19 @@ def turned(yaw: Array) -> float | None:
     return float(angle[-1] - angle[0]) if len(angle) else None
 
 
+def heading_range(yaw: Array) -> tuple[float, float] | None:
+    """Least and largest turn to the left from the first heading [rad]; both may exceed pi."""
+    angle = np.unwrap(yaw)
+    if not len(angle):
+        return None
+    return float(angle.min() - angle[0]), float(angle.max() - angle[0])
+
+
+def forward_speed(time: Array, position: Array, yaw: Array) -> float | None:
+    """Mean of :func:`smoothed_speed` [m/s]: along the present heading, negative backwards."""
+    return float(smoothed_speed(time, position, yaw).mean()) if len(time) > 1 else None
+
+
 def balance(roll: Array, pitch: Array, speed: float | None) -> float | None:
     """Balance of Fig. 7: 1 / std(roll) + 1 / std(pitch) [1/rad].
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, Final
 
-from apnc import metrics
+from apnc import metrics, walking
 from apnc.features import WalkFeatures
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import End, Record
@@ -82,7 +82,8 @@ def verdicts(summary: WalkFeatures, planned: float) -> list[Verdict]:
         summary: what is measured of the run.
         planned: duration that was asked for [s].
     """
-    return [_walked(summary, planned), _formed(summary), _fast(summary)]
+    walked = _walked(summary, planned)
+    return [walked, _formed(summary), _fast(summary, walked)]
 
 
 def number(value: float | None, digits: int = 2, unit: str = "") -> str:
@@ -103,7 +104,8 @@ def rows(s: WalkFeatures) -> list[tuple[str, str, str]]:
     evener = "1 / spread of the share of stance; larger is more even: 10 is a spread of 0.1"
     return [
         ("Speed along the path", number(s.path_speed_m_per_s, 3, "m/s"), "smoothed over 1.5 s"),
-        ("Turned", _turned(s), "from the first heading to the last"),
+        ("Turned", _turned(s), "from the first heading to the last, and the range between"),
+        ("Forward speed", number(s.forward_speed_m_per_s, 3, "m/s"), "along the present heading"),
         ("Net displacement", number(s.distance_m, 2, "m"), "along the first heading"),
         ("Simulated", number(s.duration_s, 2, "s"), ": ".join(filter(None, (s.end, s.message)))),
         (f"{target}, strict", number(s.convergence_time_s, 2, "s"), strict),
@@ -170,9 +172,58 @@ def _walked(s: WalkFeatures, planned: float) -> Verdict:
         return Verdict(question, "It diverged", f"at {when}: {s.message}", "bad")
     if s.end == End.interrupted:
         return Verdict(question, "Interrupted", f"at {when} of {planned:g} s{after}", "fair")
-    if speed is None or speed < metrics.MIN_SPEED:
-        return Verdict(question, "No", f"upright, but it got nowhere in {when}", "bad")
-    return Verdict(question, "Yes", f"{way} in {when}, upright throughout", "good")
+    return _stepped(s, question)
+
+
+def _stepped(s: WalkFeatures, question: str) -> Verdict:
+    """The verdict on a run that came to its end upright."""
+    when = number(s.duration_s, 2, "s")
+    if s.path_speed_m_per_s is None or not walking.moves(s):
+        return Verdict(question, "No", f"It stayed upright, but got nowhere in {when}.", "bad")
+    way = f"{s.path_speed_m_per_s * s.duration_s:.2f}{_SPACE}m of path"
+    feet = walking.dragging(s)
+    if not walking.goes_forward(s):
+        ahead = (s.forward_speed_m_per_s or 0.0) * s.duration_s
+        backwards = f"It moved backwards by {-ahead:.2f}{_SPACE}m in {when}."
+        little = f"Of {way}, only {max(ahead, 0.0):.2f}{_SPACE}m led forward in {when}."
+        moved = backwards if -ahead > 0.1 * s.path_speed_m_per_s * s.duration_s else little
+        return Verdict(question, "No", " ".join([moved, *_dragged(s, feet)]), "bad")
+    if not feet:
+        clean = f"{way} in {when}, upright throughout; every foot lifts and holds"
+        return Verdict(question, "Yes", clean, "good")
+    answer, mood = ("No", "bad") if 2 * len(feet) > len(s.slip_share) else ("Partly", "fair")
+    moved = f"It covered {way} in {when} upright."
+    return Verdict(question, answer, " ".join([moved, *_dragged(s, feet)]), mood)
+
+
+def _dragged(s: WalkFeatures, feet: tuple[str, ...]) -> list[str]:
+    """Which feet drag, and what they would have to do, as a sentence; none if all step."""
+    if not feet:
+        return []
+    lifts = [s.foot_lift_mm[leg] for leg in feet]
+    slips = [s.slip_share[leg] for leg in feet]
+    lift = _span([v for v in lifts if v is not None], 1, f"{_SPACE}mm")
+    slip = _span([100.0 * v for v in slips if v is not None], 0, f"{_SPACE}%")
+    one = len(feet) == 1
+    found = f"lift{'s' * one} {lift} and slip{'s' * one} {slip} of a stride"
+    if DASH in (lift, slip):
+        found = f"make{'s' * one} no whole steps"
+    who = f"{', '.join(feet)} drag{'s' * one}"
+    if len(feet) == len(s.slip_share):
+        who = "All feet drag"
+    lift_asked, slip_asked = (100.0 * share for share in (walking.MIN_LIFT, walking.MAX_SLIP))
+    asked = (
+        f"a step lifts the foot by {lift_asked:g}{_SPACE}% of the leg and slips at most "
+        f"{slip_asked:g}{_SPACE}% of a stride"
+    )
+    return [f"{who}: {'it' if one else 'they'} {found}; {asked}."]
+
+
+def _span(values: list[float], digits: int, unit: str) -> str:
+    if not values:
+        return DASH
+    low, high = f"{min(values):.{digits}f}", f"{max(values):.{digits}f}"
+    return (low if low == high else f"{low} to {high}") + unit
 
 
 def _formed(s: WalkFeatures) -> Verdict:
@@ -192,20 +243,33 @@ def _formed(s: WalkFeatures) -> Verdict:
     return Verdict(question, "No", final, "bad")
 
 
-def _fast(s: WalkFeatures) -> Verdict:
+def _fast(s: WalkFeatures, walked: Verdict) -> Verdict:
     if s.path_speed_m_per_s is None:
         return Verdict("How fast?", DASH, "not measured", "plain")
+    speed = number(s.path_speed_m_per_s, 3, "m/s")
+    along = f"along the path, turned {_turned(s)}"
+    if walked.mood == "bad":
+        why = "until it fell" if s.end == End.fell else "but it did not walk"
+        return Verdict("How fast?", DASH, f"{speed} {along}, {why}", "plain")
     stride = f"stride {number(s.stride_frequency_hz, 2, 'Hz')}"
     detail = f"{stride}, cost of transport {number(s.cost_of_transport)}"
-    speed = number(s.path_speed_m_per_s, 3, "m/s")
-    return Verdict("How fast?", speed, f"along the path, turned {_turned(s)}; {detail}", "plain")
+    return Verdict("How fast?", speed, f"{along}; {detail}", "plain")
 
 
 def _turned(s: WalkFeatures) -> str:
+    """Turn at the end, and between which headings it was on the way."""
     if s.turned_deg is None:
         return DASH
-    side = "left" if s.turned_deg > 0 else "right"
-    return f"{abs(s.turned_deg):.0f}° to the {side}" if abs(s.turned_deg) >= 0.5 else "0°"
+    right, left = s.rightmost_heading_deg, s.leftmost_heading_deg
+    if right is None or left is None or left - right < 0.5:
+        return _side(s.turned_deg)
+    low, high = _side(right), _side(left)
+    return f"{_side(s.turned_deg)} (heading from {low} to {high})"
+
+
+def _side(degrees: float) -> str:
+    side = "left" if degrees > 0 else "right"
+    return f"{abs(degrees):.0f}°{_SPACE}{side}" if abs(degrees) >= 0.5 else "0°"
 
 
 def _by_leg(values: dict[str, float | None], digits: int) -> str:

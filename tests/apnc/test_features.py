@@ -129,11 +129,31 @@ def test_a_curve(side: float) -> None:
     forward, left = 0.2 * np.sin(angle), side * 0.2 * (1 - np.cos(angle))
     s = walk_features(moving_on(walk, forward, left, metrics.wrap(side * angle)))
     assert s.turned_deg == pytest.approx(side * 450.0)
+    ends = (s.rightmost_heading_deg, s.leftmost_heading_deg)
+    assert ends == pytest.approx((0.0, 450.0) if side > 0 else (-450.0, 0.0))
     way = 1.25 * 2 * PI * 0.2 / walk.time[-1]
     assert s.path_speed_m_per_s == pytest.approx(way, rel=0.03)
     assert s.distance_m == pytest.approx(0.2)
     assert s.speed_m_per_s == pytest.approx(0.2 / walk.time[-1])
     assert s.late_speed_m_per_s == pytest.approx(way, rel=0.03)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_forward_is_along_the_present_heading(side: float) -> None:
+    walk = synthetic_record(20.0)
+    angle = 1.25 * 2 * PI * walk.time / walk.time[-1]
+    forward, left = 0.2 * np.sin(angle), 0.2 * (1 - np.cos(angle))
+    # backwards, the trunk looks against its path
+    yaw = metrics.wrap(angle if side > 0 else angle + PI)
+    s = walk_features(moving_on(walk, forward, left, yaw))
+    way = 1.25 * 2 * PI * 0.2 / walk.time[-1]
+    assert s.forward_speed_m_per_s == pytest.approx(side * way, rel=0.03)
+
+
+def test_foot_lift_as_a_share_of_the_leg() -> None:
+    s = walk_features(synthetic_record(10.0))
+    for leg, lift in s.foot_lift_mm.items():
+        assert s.foot_lift_share[leg] == pytest.approx(lift / 155.0)  # 70 mm femur, 85 mm tibia
 
 
 def test_cost_of_transport() -> None:

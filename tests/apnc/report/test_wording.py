@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from records import TRIPOD, synthetic_record
+from records import QUADRUPED, TRIPOD, synthetic_record
 
 from apnc.features import WalkFeatures, walk_features
 from apnc.loop.experiment import Experiment
@@ -16,7 +16,8 @@ from apnc_plant.ground import Obstacles
 
 SHOWN = {
     "path_speed_m_per_s": ("Speed along the path", 0.123, "0.123 m/s"),
-    "turned_deg": ("Turned", 12.0, "12° to the left"),
+    "turned_deg": ("Turned", 12.0, "12° left"),
+    "forward_speed_m_per_s": ("Forward speed", 0.117, "0.117 m/s"),
     "distance_m": ("Net displacement", 3.21, "3.21 m"),
     "duration_s": ("Simulated", 43.21, "43.21 s"),
     "convergence_time_s": ("Trot, strict", 7.25, "7.25 s"),
@@ -35,7 +36,9 @@ SHOWN = {
 
 
 def told() -> WalkFeatures:
-    figures = {name: value for name, (_, value, _) in SHOWN.items()}
+    figures = {name: value for name, (_, value, _) in SHOWN.items()} | {
+        "leftmost_heading_deg": None
+    }
     return replace(walk_features(synthetic_record(10.0)), **figures)  # type: ignore[arg-type]
 
 
@@ -100,6 +103,65 @@ def test_head_says_what_happened(
     assert moods is None or [v.mood for v in found[:2]] == moods
 
 
+def shuffling() -> WalkFeatures:
+    """Lilibot at MI 0.9 and robot_weight 5: backwards, and on feet that hardly leave the ground."""
+    lifts = (0.0004, 0.0006, 0.0005, 0.001)
+    return replace(
+        GOOD,
+        path_speed_m_per_s=0.107,
+        forward_speed_m_per_s=-0.105,
+        foot_lift_mm=dict(zip(QUADRUPED, (1000.0 * lift for lift in lifts), strict=True)),
+        foot_lift_share=dict(zip(QUADRUPED, (lift / 0.155 for lift in lifts), strict=True)),
+        slip_share=dict(zip(QUADRUPED, (1.1, 0.52, 1.08, 0.49), strict=True)),
+    )
+
+
+def test_a_shuffle_is_no_walk_and_the_sentence_says_what_is_missing() -> None:
+    walked, _, fast = verdicts(shuffling(), 10.0)
+    assert (walked.answer, walked.mood) == ("No", "bad")
+    told = walked.detail.replace("\xa0", " ")
+    assert "moved backwards by 1.05 m in 10.00 s" in told
+    assert "All feet drag: they lift 0.4 to 1.0 mm" in told
+    assert "slip 49 to 110 % of a stride" in told
+    assert "lifts the foot by 2 % of the leg and slips at most 50 % of a stride" in told
+    assert fast.answer == "–" and "did not walk" in fast.detail
+
+
+@pytest.mark.parametrize(("ahead", "words"), [(-0.08, "backwards"), (0.01, "led forward")])
+def test_walking_asks_for_forward_motion(ahead: float, words: str) -> None:
+    walked = verdicts(replace(GOOD, forward_speed_m_per_s=ahead), 10.0)[0]
+    assert walked.answer == "No" and words in walked.detail
+
+
+@pytest.mark.parametrize(("field", "bad"), [("foot_lift_share", 0.01), ("slip_share", 0.9)])
+def test_walking_asks_for_more_than_half_of_the_feet(field: str, bad: float) -> None:
+    for count, answer in enumerate(("Yes", "Partly", "Partly", "No", "No")):
+        feet = getattr(GOOD, field) | dict.fromkeys(QUADRUPED[:count], bad)
+        walked, _, fast = verdicts(replace(GOOD, **{field: feet}), 10.0)
+        assert walked.answer == answer
+        assert fast.answer == ("–" if answer == "No" else "0.080\xa0m/s")
+
+
+def test_the_foot_that_drags_is_named() -> None:
+    slips = verdicts(replace(GOOD, slip_share=GOOD.slip_share | {"LF": 0.9}), 10.0)[0].detail
+    assert "LF drags: it lifts" in slips and "90\xa0% of a stride" in slips
+    unknown = replace(GOOD, foot_lift_share=GOOD.foot_lift_share | {"LF": None})
+    assert verdicts(unknown, 10.0)[0].answer == "Partly"
+
+
+def test_a_fall_has_no_speed_for_an_answer() -> None:
+    fast = verdicts(replace(GOOD, end="fell", complete=False), 45.0)[2]
+    assert fast.answer == "–" and "0.080\xa0m/s along the path" in fast.detail
+    assert "until it fell" in fast.detail
+
+
+def test_the_range_of_the_heading_is_told_beside_its_end() -> None:
+    wide = replace(GOOD, turned_deg=2.0, rightmost_heading_deg=-12.0, leftmost_heading_deg=9.0)
+    told = {name: value for name, value, _ in rows(wide)}["Turned"]
+    assert told.replace("\xa0", " ") == "2° left (heading from 12° right to 9° left)"
+    assert "from 12°\xa0right" in verdicts(wide, 10.0)[2].detail
+
+
 @pytest.mark.parametrize("end", ["fell", "diverged", "interrupted"])
 def test_an_early_end_is_said_with_its_time(end: str) -> None:
     walked = verdicts(replace(GOOD, end=end, complete=False, duration_s=7.25), 45.0)[0]
@@ -112,9 +174,9 @@ def test_path_speed_and_turn_lead_and_what_is_undefined_is_a_dash() -> None:
     curve = replace(GOOD, path_speed_m_per_s=0.146, turned_deg=-204.0, distance_m=0.17)
     fast = verdicts(curve, 45.0)[2]
     assert fast.answer == "0.146\xa0m/s"
-    assert "turned 204° to the right" in fast.detail
+    assert "turned 204°\xa0right" in fast.detail
     names = [name for name, _, _ in rows(curve)]
-    assert names[:3] == ["Speed along the path", "Turned", "Net displacement"]
+    assert names[:3] == ["Speed along the path", "Turned", "Forward speed"]
     standing = replace(GOOD, balance=None, coordination=None, path_speed_m_per_s=None)
     table = {name: value for name, value, _ in rows(standing)}
     assert table["Balance"] == table["Coordination"] == table["Speed along the path"] == "–"
