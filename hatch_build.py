@@ -14,7 +14,6 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-LEGS = (4, 6)
 WHEEL_TAGS = {
     "linux64": "linux_x86_64",
     "aarch64-linux": "linux_aarch64",
@@ -25,20 +24,20 @@ WHEEL_TAGS = {
 
 
 class ReadyBinaries(BuildHookInterface[Any]):
-    """Builds the FMUs for 4 and 6 legs, and the library of the robot for every platform, into the
+    """Builds the FMUs of ``READY_LEGS``, and the library of the robot for every platform, into the
     wheel or into the tree of an editable install."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Build and add them; set the wheel's tag to where they run."""
         sys.path.insert(0, self.root)
-        from build_fmu.build import READY, cached_fmu
+        from build_fmu.build import READY, READY_LEGS, cached_fmu
         from build_fmu.library import library_name, library_path
         from build_fmu.options import BuildOptions
         from build_fmu.platforms import PLATFORMS
 
         platforms = _platforms(os.environ.get("APNC_WHEEL_PLATFORMS", "host"))
         built = []
-        for legs in LEGS if platforms else ():
+        for legs in READY_LEGS if platforms else ():
             path = cached_fmu(BuildOptions(legs=legs, platforms=platforms), self.app.display_info)
             name = path.name if path.parent == READY else f"{path.parent.name[:16]}.fmu"
             built.append((path, name))

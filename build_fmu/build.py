@@ -24,10 +24,13 @@ from build_fmu.package import zip_fmu
 from build_fmu.platforms import MODEL, PLATFORMS, BuildError, host_platform, place, placed
 from build_fmu.writing import write_atomically
 
-__all__ = ["build_key", "cache_folder", "cached_fmu", "fmu_bytes", "host_fmu"]
+__all__ = ["build_key", "cache_folder", "cached_fmu", "finished_fmu", "fmu_bytes", "host_fmu"]
 
 READY: Final = Path(__file__).parent / "ready"
 """Folder of the FMUs that came with the package; each file is named by the key of its build."""
+
+READY_LEGS: Final = (4, 6, 8)
+"""Numbers of legs of those FMUs, which are those of the shipped robots."""
 
 
 def fmu_bytes(
@@ -144,6 +147,25 @@ def cached_fmu(options: BuildOptions, progress: BuildProgress = lambda platform:
         BuildError: the compiler failed, or it is needed and not installed.
         OSError: the cache folder cannot be written.
     """
+    path = finished_fmu(options)
+    if path is None:
+        if options.platforms and not compiler_version():
+            raise BuildError(_no_compiler())
+        path = cached_path(build_key(options), MODEL)
+        write_atomically(path, fmu_bytes(options, progress))
+    return path
+
+
+def finished_fmu(options: BuildOptions) -> Path | None:
+    """Path of an FMU for which nothing has to be compiled, or None.
+
+    Args:
+        options: what the FMU is built with. It came with the package with these options, or for
+            more platforms, or lies in the cache.
+
+    Raises:
+        OSError: the cache folder cannot be written.
+    """
     key = build_key(options)
     ready = READY / f"{key}.fmu"
     if ready.is_file():
@@ -152,13 +174,9 @@ def cached_fmu(options: BuildOptions, progress: BuildProgress = lambda platform:
     if not path.is_file():
         everywhere = _ready_everywhere(options)
         # alone, darwin64 is the library for Intel; the ready FMU has one file for both processors
-        if everywhere.is_file() and ("darwin64" not in options.platforms):
-            content = _narrowed(everywhere, options)
-        elif options.platforms and not compiler_version():
-            raise BuildError(_no_compiler())
-        else:
-            content = fmu_bytes(options, progress)
-        write_atomically(path, content)
+        if not everywhere.is_file() or "darwin64" in options.platforms:
+            return None
+        write_atomically(path, _narrowed(everywhere, options))
     return path
 
 
@@ -188,9 +206,11 @@ def _narrowed(fmu: Path, options: BuildOptions) -> bytes:
 
 def _no_compiler() -> str:
     ready = len(list(READY.glob("*.fmu")))
+    *few, most = READY_LEGS
     return (
-        f"this FMU is none of the {ready} that came with the package (4 and 6 legs, FMI 2, "
-        f"defaults), or its sources were changed since, and {NO_COMPILER}"
+        f"this FMU is none of the {ready} that came with the package "
+        f"({', '.join(map(str, few))} and {most} legs, FMI 2, defaults, for this machine), "
+        f"or its sources were changed since, and {NO_COMPILER}"
     )
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import importlib.metadata
+import logging
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Final
@@ -16,7 +18,11 @@ from build_fmu.platforms import MODEL, BuildError, Platform
 BuildProgress = Callable[[str], None]
 """Called with the name of the platform that is compiled next."""
 
-NO_COMPILER: Final = "the C compiler is not installed: pip install ziglang"
+LOG: Final = logging.getLogger("build_fmu")
+"""Says at level INFO what is compiled, and how long it took."""
+
+INSTALL_COMPILER: Final = "pip install ziglang"
+NO_COMPILER: Final = f"the C compiler is not installed: {INSTALL_COMPILER}"
 
 FLAGS: Final = (
     "-std=c11",
@@ -80,6 +86,8 @@ def compile_library(
             *("-shared", "-s", *FLAGS, *flags, *_platform_flags(platform, name)),
             *("-I.", *c_files, "-o", str(library)),
         ]
+        LOG.info("compiling %s for %s", name, platform.folder)
+        begin = time.monotonic()
         done = subprocess.run(
             command,
             cwd=folder,
@@ -90,4 +98,5 @@ def compile_library(
         )
         if done.returncode != 0:
             raise BuildError(f"compiler failed for {platform.folder}:\n{done.stderr.strip()}")
+        LOG.info("compiled %s for %s in %.1f s", name, platform.folder, time.monotonic() - begin)
         return library.read_bytes()

@@ -11,15 +11,14 @@ from typing import Final
 
 import apnc_core
 from apnc_core.legs import leg_names
-from build_fmu.build import cached_fmu
+from build_fmu.build import READY_LEGS, cached_fmu
 from build_fmu.options import BuildOptions
 from build_fmu.platforms import PLATFORMS
 from build_fmu.writing import write_atomically
 
-LEGS: Final = (4, 6)
 VARIANTS: Final[tuple[tuple[str, BuildOptions, str], ...]] = tuple(
     (f"Apnc_{legs}legs_{kind}.fmu", BuildOptions(legs=legs, **choice), text)
-    for legs in LEGS
+    for legs in READY_LEGS
     for kind, choice, text in (
         ("fmi2", {}, "FMI 2.0 co-simulation, names like `leg[1].grf`"),
         ("fmi2_flat", {"naming": "flat"}, "FMI 2.0 co-simulation, names like `leg1_grf`"),

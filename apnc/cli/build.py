@@ -4,16 +4,18 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 from typer import Option
 
-from apnc.cli.console import apart, file_option, given, say, status, writable
+from apnc.cli.console import apart, compiling, file_option, given, say, status, writable
 from apnc.controllers import CONTROLLERS, named_controller
 
 if TYPE_CHECKING:
     from apnc_core.settings import SettingLike
+    from build_fmu.options import BuildOptions
 
 _CONTROLLERS: Final = ", ".join(CONTROLLERS)
 
@@ -33,7 +35,10 @@ def build(
     fmi: Annotated[int, Option(help="Version of the FMI standard, 2 or 3.")] = 2,
     platform: Annotated[
         list[str] | None,
-        Option(help="Platform such as win64, or host. May be repeated. Default: all."),
+        Option(
+            help="Platform such as win64, or host. May be repeated. Default: all; without the "
+            "compiler, those of the FMU that came with the package."
+        ),
     ] = None,
     preset: Annotated[str, Option(help="Start values of robot, lilibot or paper.")] = "robot",
     setting: Annotated[
@@ -66,10 +71,12 @@ def build(
     from apnc.loop.parameters import read_parameters
     from apnc_core.settings import parse
     from build_fmu.build import cached_fmu
+    from build_fmu.compile import INSTALL_COMPILER
     from build_fmu.options import BuildOptions
     from build_fmu.release import release as build_release
     from build_fmu.writing import write_atomically
 
+    came_with_the_package = False
     with status("building") as shown:
         if release:
             files = build_release(
@@ -97,9 +104,28 @@ def build(
             reals=reals,
         )
         writable(output, file=True)
-        path = cached_fmu(options, lambda name: shown.update(f"compiling for {name}"))
+        if platform is None and (own := _without_compiler(options)):
+            options, came_with_the_package = own, True
+        path = cached_fmu(options, compiling(shown, len(options.platforms)))
         write_atomically(output, path.read_bytes())
     say(f"{output}: {output.stat().st_size / 1000:.0f} kB, {', '.join(options.platforms)}")
+    if came_with_the_package:
+        say(
+            "It came with the package, for this machine. "
+            f"Other platforms, legs and start values need the C compiler: {INSTALL_COMPILER}"
+        )
+
+
+def _without_compiler(options: BuildOptions) -> BuildOptions | None:
+    """The same FMU for this machine alone, if that is all there is without the compiler."""
+    from build_fmu.build import finished_fmu
+    from build_fmu.compile import compiler_version
+    from build_fmu.options import host_platform
+
+    if compiler_version() or finished_fmu(options):
+        return None
+    here = replace(options, platforms=(host_platform(),))
+    return here if finished_fmu(here) else None
 
 
 def platform_names(words: list[str] | None) -> tuple[str, ...]:

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from itertools import count as counting
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -102,6 +104,28 @@ def status(text: str) -> Status:
     from rich.console import Console
 
     return Console(stderr=True).status(text)
+
+
+def compiling(shown: Status, count: int) -> Callable[[str], None]:
+    """A progress that names in ``shown`` which of ``count`` platforms is compiled."""
+    number = counting(1)
+    return lambda name: shown.update(f"compiling for {name}, {next(number)} of {count}")
+
+
+class Told(logging.Handler):
+    """Prints what is logged as lines on standard error, above a spinner or a bar."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print the message of a record."""
+        say(self.format(record), error=True)
+
+
+def tell_compiling() -> None:
+    """Say on standard error what is compiled, and how long it took, wherever that happens."""
+    log = logging.getLogger("build_fmu")
+    log.setLevel(logging.INFO)
+    if not any(isinstance(handler, Told) for handler in log.handlers):
+        log.addHandler(Told())
 
 
 def show_table(rows: Iterable[Iterable[str]], *headings: str) -> None:

@@ -71,6 +71,9 @@ def _run(arguments: list[str], program: str, load: Callable[[], typer.Typer]) ->
         _refuse_empty(arguments)
         import typer
 
+        from apnc.cli.console import tell_compiling
+
+        tell_compiling()
         command = typer.main.get_command(load())
         code = command.main(args=arguments, prog_name=program, standalone_mode=False)
     except Exception as error:

@@ -9,7 +9,7 @@ from typing import Annotated
 
 from typer import Context, Option
 
-from apnc.cli.console import apart, file_option, given, say, status, writable
+from apnc.cli.console import apart, compiling, file_option, given, say, status, writable
 from apnc.controllers import CONTROLLERS
 
 _CONTROLLERS = ", ".join(CONTROLLERS)
@@ -41,7 +41,7 @@ def build_plant(
         apart({"--output": output}, given(robot=robot))
         wanted = PlantBuild(robot, naming, fmi, platform_names(platform), enumerations, reals)
         output = writable(output or Path(f"{plant_model(robot)}.fmu"), file=True)
-        path = plant_fmu(wanted, lambda name: shown.update(f"compiling for {name}"))
+        path = plant_fmu(wanted, compiling(shown, len(wanted.platforms)))
         write_atomically(output, path.read_bytes())
     say(f"{output}: {output.stat().st_size / 1000:.0f} kB, {', '.join(wanted.platforms)}")
 

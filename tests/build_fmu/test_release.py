@@ -33,7 +33,7 @@ def test_every_variant_is_there_and_says_what_it_is(folder: Path) -> None:
         found.add((description.fmiVersion, legs, loads[0].name))
     assert found == {
         (fmi, legs, name)
-        for legs in (4, 6)
+        for legs in (4, 6, 8)
         for fmi, name in (("2.0", "leg[1].grf"), ("2.0", "leg1_grf"), ("3.0", "grf"))
     }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,66 @@ from command_line import run
 
 from apnc import Gait, write_gait
 from apnc_plant.robot import ROBOTS, load_robot
+from build_fmu import build, compile
+from build_fmu.options import BuildOptions
+from build_fmu.platforms import PLATFORMS, host_platform
+
+
+@pytest.fixture
+def came(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> bytes:
+    """A plain install: an FMU for this machine came with the package, and no compiler is there."""
+    options = BuildOptions(platforms=(host_platform(),))
+    content = build.cached_fmu(options).read_bytes()
+    (tmp_path / f"{build.build_key(options)}.fmu").write_bytes(content)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(build, "READY", tmp_path)
+    monkeypatch.setenv("APNC_CACHE", str(tmp_path / "cache"))
+    for module in (build, compile):
+        monkeypatch.setattr(module, "compiler_version", str)
+    return content
+
+
+def test_without_the_compiler_it_hands_out_what_came_with_the_package(
+    came: bytes, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, out, err = run(capsys, "build")
+    assert (code, err) == (0, "")
+    assert Path("Apnc.fmu").read_bytes() == came
+    first, second = out.splitlines()
+    assert first.startswith("Apnc.fmu: ") and first.endswith(f" kB, {host_platform()}")
+    assert second.endswith("need the C compiler: pip install ziglang")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--platform", "all"),
+        ("--platform", next(name for name in PLATFORMS if name != host_platform())),
+        ("--set", "xi=0.03"),
+        ("--legs", "5"),
+        ("--fmi", "3"),
+    ],
+)
+def test_what_has_to_be_compiled_asks_for_the_compiler(
+    words: tuple[str, ...], came: bytes, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, _, err = run(capsys, "build", *words)
+    assert code == 2
+    assert "pip install ziglang" in err and len(err.splitlines()) == 1
+    assert not Path("Apnc.fmu").exists()
+
+
+def test_it_says_what_it_compiles_and_for_how_long(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(build, "cached_path", lambda key, model: tmp_path / f"{key}.fmu")
+    host = host_platform()
+    code, _, err = run(capsys, "build", "--platform", host, "--set", "xi=0.034")
+    assert code == 0
+    first, second = err.splitlines()
+    assert first == f"compiling Apnc for {host}"
+    assert re.fullmatch(rf"compiled Apnc for {host} in \d+\.\d s", second)
 
 
 def test_a_built_fmu_starts_with_what_was_said(
