@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from apnc.loop.record import Record
 
 ByLeg = Sequence[float | None]
-"""A figure of each leg, in the order of ``Record.legs``; None for a leg where it is undefined."""
+"""A measure of each leg, in the order of ``Record.legs``; None for a leg where it is undefined."""
 
 
 class Feet:
-    """Figures of strides and feet, each computed when it is first asked for.
+    """Measures of strides and feet, each computed when it is first asked for.
 
     Strides begin in the part. Stance is what it is in the whole run, since its threshold is a share
-    of the largest force of the run, see ``metrics.stance``.
+    of a high quantile of the force of leg 1 in the run, see ``metrics.stance``.
 
     Args:
         record: the run.

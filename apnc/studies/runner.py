@@ -150,8 +150,9 @@ def run_trials(
 ) -> Iterator[Result]:
     """Run trials and give their results as they finish.
 
-    Trials in C run first, side by side. Trials in other engines follow one by one. A trial that
-    raises gives a result with its error.
+    Trials in C run first, side by side. Trials in other engines follow one by one; a study with
+    several workers calls this in several processes. A trial that raises gives a result with its
+    error.
 
     Args:
         trials: the trials to run.
