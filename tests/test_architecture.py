@@ -28,7 +28,7 @@ PARTS_OF_APNC = (
     ("loop",),
     ("feet",),
     ("features",),
-    ("many",),
+    ("many", "walking"),
     ("importing", "report", "system"),
     ("studies",),
     ("cli",),
