@@ -19,7 +19,7 @@ WORKFLOWS = {
     path.name: yaml.safe_load(path.read_text())
     for path in (ROOT / ".github" / "workflows").glob("*.yml")
 }
-ONLY_FOR_A_RELEASE = {"version"}
+ONLY_FOR_A_RELEASE = {"version", "release"}
 
 
 def scripts_called_from(lines: Iterable[str]) -> set[str]:
