@@ -1,4 +1,4 @@
-"""Every run in FMPy that is shown gives the interval, since FMPy chooses a longer step by itself."""
+"""Every run in FMPy that is shown gives the interval: FMPy chooses a longer step by itself."""
 
 from __future__ import annotations
 
