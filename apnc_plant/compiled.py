@@ -16,8 +16,9 @@ from apnc_plant.numbers import Numbers, conditions_numbers, robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import RobotDescription
 from apnc_plant.sample import sample_signals
-from apnc_plant.signals import PlantError
+from apnc_plant.signals import PlantError, diverged
 from apnc_plant.start import start_coordinates
+from apnc_plant.step import checked_step
 from apnc_plant.trace import Trace
 
 KINDS: Final = {"legs": "PLANT_LEGS", "scalar": "PLANT_SCALAR"}
@@ -65,12 +66,13 @@ class Plant:
             kind: ``legs`` computes the legs side by side, which is faster; ``scalar`` one by one.
 
         Raises:
-            ValueError: conditions name a leg the robot does not have, the seed or kind is not
+            ValueError: conditions name a leg the robot does not have, the seed, kind or step is not
                 allowed, or the ground does not take feet of this radius.
         """
         ffi, self._lib = library()
         self._seed = checked_seed(seed)
         self._robot, self._options = robot, options or PlantOptions()
+        self._step = checked_step(self._options.step, robot)
         self._conditions = conditions or Conditions()
         self.legs = tuple(leg.name for leg in robot.legs)
         self.n_legs = len(self.legs)
@@ -142,12 +144,12 @@ class Plant:
             self._place(duration)
             self.set_conditions(self._conditions)
         self._lib.plant_command(self._plant.at, 0, self._hip, self._knee)
-        self._lib.plant_advance(self._plant.at, self._grounds, duration, self._options.step)
+        self._lib.plant_advance(self._plant.at, self._grounds, duration, self._step)
         self.time += duration
         self._ground.check()
         self._measure()
         if self._lib.plant_state_of(self._plant.at, 0) == self._lib.PLANT_DIVERGED:
-            raise PlantError(f"the motion diverged before t = {self.time:.4f} s")
+            raise PlantError(diverged(self.time, self._step))
 
     def _measure(self) -> None:
         self._lib.plant_sample(self._plant.at, 0, self._sample_in_c)

@@ -13,7 +13,7 @@ from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
 from apnc_core.schema import Causality, Shape, Type, Variable
 from apnc_plant.variable_numbers import VARIABLE_NUMBERS
-from apnc_plant.variables import ENUMERATIONS, PARTS, TABLE
+from apnc_plant.variables import ENUMERATIONS, TABLE, is_of_robot
 from build_fmu.generate import c_unit, limits, numbers_of, snake
 
 ROOT: Final = Path(__file__).resolve().parent.parent
@@ -37,7 +37,7 @@ def start_macro(v: Variable) -> str:
 
 
 def _c_start(v: Variable) -> str:
-    own = v.causality is Causality.parameter and v.name.split(".")[0] in PARTS
+    own = v.causality is Causality.parameter and is_of_robot(v)
     return start_macro(v) if own else repr(float(v.start or 0.0))
 
 

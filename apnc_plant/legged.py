@@ -20,8 +20,9 @@ from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import MassProperties, RobotDescription
 from apnc_plant.sensor.load import LoadSensor
-from apnc_plant.signals import PlantError
+from apnc_plant.signals import PlantError, diverged
 from apnc_plant.start import start_coordinates
+from apnc_plant.step import checked_step, stable_step
 from apnc_plant.trace import Trace
 
 NOW: Final = 1e-6
@@ -36,7 +37,8 @@ class Setup:
         robot: the robot.
         trunk: mass properties of its trunk with the payload.
         ground: the ground.
-        options: start and integration.
+        options: start and gravity.
+        step: longest integration step [s].
         start: initial coordinates, shape (6 + 3 n_legs,), see ``coordinates``.
         forces: all forces but gravity.
     """
@@ -45,6 +47,7 @@ class Setup:
     trunk: MassProperties
     ground: Ground
     options: PlantOptions
+    step: float
     start: Array
     forces: RobotForces
 
@@ -112,11 +115,12 @@ class LeggedPlant:
             conditions: payload, damage and sensor faults; none if omitted.
 
         Raises:
-            ValueError: conditions name a leg the robot does not have, the seed is not allowed, or
-                the ground does not take feet of this radius.
+            ValueError: conditions name a leg the robot does not have, the seed or step is not
+                allowed, or the ground does not take feet of this radius.
             PlantError: the engine refused the model.
         """
         self._robot, self._options = robot, options or PlantOptions()
+        self._step = checked_step(self._options.step, robot)
         self._ground = ground or Plane()
         self._conditions = conditions or Conditions()
         self.legs = tuple(leg.name for leg in robot.legs)
@@ -143,7 +147,7 @@ class LeggedPlant:
         self._forces = RobotForces(robot, self._ground, coordinates[BASE:])
         self._forces.foot_mass = foot_mass(robot, numbers, ground, self._start)
         trunk = robot.trunk.loaded(offset, payload)
-        setup = Setup(robot, trunk, self._ground, options, coordinates, self._forces)
+        setup = Setup(robot, trunk, self._ground, options, self._step, coordinates, self._forces)
         self._engine = self.engine(setup)
         self._q, self._v = coordinates.copy(), np.zeros_like(coordinates)
         self._measure()
@@ -200,6 +204,8 @@ class LeggedPlant:
         self._integrate_tick(self._coming, duration)
         self._measure()
         self._forces.check()
+        if self._step > stable_step(self._robot) and self.fell:
+            raise PlantError(diverged(self.time, self._step))
         load = self._felt_load()
         self._reading[:] = self._sensor.update(load, duration)
 
@@ -245,13 +251,13 @@ class LeggedPlant:
             coming.append((wait - duration, targets))
 
     def _integrate(self, end: float, duration: float) -> None:
-        steps = max(1, math.ceil(duration / self._options.step - NOW))
+        steps = max(1, math.ceil(duration / self._step - NOW))
         self._forces.set_step(duration / steps)
         self.time = end
         moved = self._engine.advance(end, steps, self._q, self._v)
         if not moved or not np.isfinite(self._q).all():
             self._forces.check()
-            raise PlantError(f"the motion diverged before t = {self.time:.4f} s")
+            raise PlantError(diverged(self.time, self._step))
 
     def _measure(self) -> None:
         self._forces.measure(self._q, self._v)

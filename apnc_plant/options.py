@@ -13,7 +13,8 @@ class PlantOptions:
     """Start and integration of a plant.
 
     Args:
-        step: longest integration step [s]; a tick is divided into equal steps of at most this.
+        step: longest integration step [s]; a tick is divided into equal steps of at most this. The
+            robot's own if omitted, see ``apnc_plant.step``.
         gravity: downward acceleration [m/s^2].
         clearance: height of the lowest foot above the ground at the start [m].
         start_hip, start_knee: joint angles of every leg at the start, relative to the reference
@@ -23,7 +24,7 @@ class PlantOptions:
         ValueError: a step that is not positive, or a value that is no finite number.
     """
 
-    step: Annotated[Number, limits("s", gt=0.0)] = 1.0 / 960.0
+    step: Annotated[Number, limits("s", gt=0.0)] | None = None
     gravity: Annotated[Number, limits("m/s^2")] = GRAVITY
     clearance: Annotated[Number, limits("m")] = 0.0
     start_hip: Annotated[Number, limits("rad")] = 0.0

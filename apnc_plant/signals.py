@@ -22,6 +22,16 @@ class PlantError(RuntimeError):
     """The motion diverged, or an engine refused the model."""
 
 
+def diverged(time: float, step: float) -> str:
+    """Message about a motion that diverged.
+
+    Args:
+        time: when it was noticed [s].
+        step: longest integration step [s].
+    """
+    return f"the motion diverged before t = {time:.4f} s with integration steps of {step:.4g} s"
+
+
 @dataclass(frozen=True)
 class Signal:
     """One quantity over time.

@@ -16,9 +16,9 @@ from apnc_core.enumerations import Enumeration
 from apnc_core.schema import Causality, Shape, Type, Value, Variable
 from apnc_core.variables import variable_named as controller_variable
 from apnc_plant.conditions import PAYLOAD
-from apnc_plant.options import PlantOptions
 from apnc_plant.robot.model import RobotDescription
 from apnc_plant.signals import PLANT_SIGNALS, Signal
+from apnc_plant.step import SHORTEST_STEP, own_step
 
 COMMANDS: Final = ("theta_hip", "theta_knee")
 LOAD: Final = "grf"
@@ -103,7 +103,7 @@ _PARAMETERS: Final = (
         type=Type.enumeration, enumeration=_CONDITION, start=Condition.C1.value),
     _fixed(
         "step", "longest integration step; a step of the FMU is divided into equal parts",
-        start=PlantOptions().step, unit="s", min=1e-6, max=1 / 60),
+        start=1e-3, unit="s", min=SHORTEST_STEP, max=1 / 60),
     _tunable(
         "servo.stiffness", "torque of a servo per position error",
         start=1.0, unit="N.m/rad", min=1e-6, max=1e6),
@@ -157,7 +157,7 @@ _PARAMETERS: Final = (
         type=Type.enumeration, enumeration=_COMPONENT, start=LoadComponent.normal.value),
 )  # fmt: skip
 
-PARTS: Final = ("servo", "contact", "sensor")
+_PARTS: Final = ("servo", "contact", "sensor")
 """Names of the parts of a robot whose numbers are parameters."""
 
 
@@ -194,6 +194,11 @@ TABLE: Final = (
 )
 
 
+def is_of_robot(variable: Variable) -> bool:
+    """Whether the start value of a parameter is a number of the robot."""
+    return variable.name.split(".")[0] in (*_PARTS, "step")
+
+
 def starts_of(robot: RobotDescription) -> Mapping[str, tuple[Value, ...]]:
     """Start values of the parameters that are numbers of a robot, by name.
 
@@ -204,11 +209,10 @@ def starts_of(robot: RobotDescription) -> Mapping[str, tuple[Value, ...]]:
         ValueError: a number of the robot that its variable does not allow.
     """
     starts: dict[str, tuple[Value, ...]] = {}
-    for v in _PARAMETERS:
+    # the step comes last: that of a robot with a number outside its range may not exist
+    for v in sorted(filter(is_of_robot, _PARAMETERS), key=lambda v: v.name == "step"):
         part, _, name = v.name.partition(".")
-        if part not in PARTS:
-            continue
-        value = getattr(getattr(robot, part), name)
+        value: Any = getattr(getattr(robot, part), name) if name else own_step(robot)
         if v.enumeration:
             value = v.enumeration.items[value].value
         elif not v.min <= value <= v.max:

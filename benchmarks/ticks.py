@@ -17,6 +17,7 @@ from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.start import start_coordinates
+from apnc_plant.step import own_step
 from build_fmu.compile import compile_library
 from build_fmu.library import sources
 from build_fmu.platforms import PLATFORMS, host_platform
@@ -25,7 +26,7 @@ from research.contact.measure import TICK, commands
 KINDS: Final = {"scalar": "PLANT_SCALAR", "legs": "PLANT_LEGS", "robots": "PLANT_ROBOTS"}
 """Ways to compute robots, and their names in ``plant.h``."""
 
-STEPS: Final = round(TICK / PlantOptions().step)
+STEPS: Final = round(TICK / own_step(load_robot("lilibot")))
 """Integration steps per tick of a walk."""
 
 

@@ -33,7 +33,7 @@ class ExudynTree(Engine):
             self.mbs, setup.robot, setup.trunk, options.gravity, setup.start, setup.forces
         )
         self.mbs.Assemble()
-        self._settings = _solver_settings(options.step)
+        self._settings = _solver_settings(setup.step)
         self.solver: Any = exu().MainSolverExplicit()
         if not self.solver.InitializeSolver(self.mbs, self._settings):
             raise PlantError("Exudyn refused the model")

@@ -42,6 +42,7 @@ def struct_of(robot: RobotDescription) -> bytes:
     """A robot as ``play_numbers`` of ``play.h``, without its pointer."""
     ffi, n_legs = _ffi(len(robot.legs)), len(robot.legs)
     own, options, field = ffi.new("play_numbers *"), PlantOptions(), Obstacles()
+    run = Experiment(robot=robot)
     numbers = robot_numbers(robot)
     shared = ffi.new("plant_robot *")
     _copy(ffi, shared, numbers.at)
@@ -62,7 +63,7 @@ def struct_of(robot: RobotDescription) -> bytes:
         "foot_radius": robot.contact.foot_radius,
         "sink_in": SINK_IN,
     }
-    own.clearance, own.step, own.Ts = options.clearance, options.step, Experiment(robot=robot).Ts
+    own.clearance, own.step, own.Ts = options.clearance, run.step, run.Ts
     own.start = [0.0, options.start_hip, options.start_knee]
     return bytes(ffi.buffer(own))
 

@@ -24,6 +24,7 @@ from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import conditions_numbers, robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.sample import record_signals, sample_size
+from apnc_plant.signals import diverged
 from apnc_plant.start import start_coordinates
 from build_fmu.build import host_fmu
 
@@ -147,7 +148,7 @@ class Run:
         }
         found = end or ends[self.at.end]
         if found is End.diverged:
-            message = f"the motion diverged before t = {self.ticks * self.experiment.Ts:.4f} s"
+            message = diverged(self.ticks * self.experiment.Ts, self.experiment.step)
         robot, count = self.experiment.description, self.ticks
         return Record(
             legs=tuple(leg.name for leg in robot.legs),

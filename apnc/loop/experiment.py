@@ -32,6 +32,7 @@ from apnc_plant.ground import Ground, Plane, from_dict
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
 from apnc_plant.robot.model import OF_THE_RUN
+from apnc_plant.step import checked_step, own_step
 
 OWN_PRESET: Final = "robot"
 """The preset that takes the table's defaults and what the robot's file sets of them."""
@@ -132,7 +133,8 @@ class Experiment:
         turn: steering [1], positive turns left; one value or steps.
         reset: whether the controller is held in its start state; one value or steps.
         rate: update rate of the controller [Hz]; 60 or the FMU's own if omitted.
-        step: longest integration step of the plant [s].
+        step: longest integration step of the plant [s]; the robot's own if omitted, see
+            ``apnc_plant.step``.
         engine: what integrates the equations of motion, ``exudyn``, ``mujoco`` or ``compiled``.
         fmu: file of the controller; the built one if omitted. Its own start values, those that are
             not the defaults, hold unless ``rate``, ``controller``, ``settings`` or a preset other
@@ -159,7 +161,7 @@ class Experiment:
     turn: Annotated[Schedule[float], _over_time(_in_range("turn"))] = 0.0
     reset: Annotated[Schedule[bool], _over_time(_boolean)] = False
     rate: Annotated[Number, WrapValidator(_if_given)] = None  # type: ignore[assignment]  # a number once it is made
-    step: Number = PlantOptions().step
+    step: Annotated[Number, WrapValidator(_if_given)] = None  # type: ignore[assignment]  # as rate
     engine: str = OWN_ENGINE
     fmu: Annotated[str, limits(allowed="the path of a file")] | None = None
 
@@ -178,6 +180,7 @@ class Experiment:
         self._check_times()
         check_engine(self.engine)
         PlantOptions(step=self.step)
+        object.__setattr__(self, "step", checked_step(self.step, self.description))
         self.parameters()
 
     def _of_fmu(self) -> dict[str, Any]:
@@ -284,8 +287,12 @@ class Experiment:
         return values
 
     def changed(self) -> dict[str, Any]:
-        """Fields by name that differ from the default. The values of an FMU are its defaults."""
+        """Fields by name that differ from the default.
+
+        The values of an FMU and the step of the robot are defaults.
+        """
         default = {f.name: getattr(_default(), f.name) for f in fields(self)} | self._of_fmu()
+        default["step"] = own_step(self.description)
         own = {name: getattr(self, name) for name in default}
         return {name: value for name, value in own.items() if value != default[name]}
 

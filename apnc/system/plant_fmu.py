@@ -150,6 +150,7 @@ def _files(build: PlantBuild) -> dict[str, bytes]:
 def _configured(build: PlantBuild, guid: str) -> dict[str, bytes]:
     legs = len(build.description().legs)
     lines = ["/* Build-time choices, written by the build. */", "#define PLANT_ONE_ROBOT"]
+    lines += [f"#define PLANT_MOST_LEGS {legs}"]
     lines += [f"#define PLANT_PREFIX {sources.prefix_of(guid)}"] if guid else []
     return {
         "apnc_config.h": sources.shell_config(legs, build.naming, guid, reals=build.reals),

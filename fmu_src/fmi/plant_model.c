@@ -177,6 +177,27 @@ static void apply_condition(const plant_parameters *p, plant_run *run, void *pla
     run->condition = p->condition;
 }
 
+/* The trunk as it was built. */
+static plant_body bare_trunk(void) {
+    static const double size[3] = ROBOT_TRUNK_SIZE, com[3] = ROBOT_TRUNK_COM;
+    plant_body trunk;
+    plant_box(ROBOT_TRUNK_MASS, size, com, &trunk);
+    return trunk;
+}
+
+/* Refuse an integration step that is too long for the robot with the present parameters. */
+static apnc_status refuse_step(apnc_instance *instance) {
+    const plant_parameters *p = &((const plant_values *)instance->values)->parameters;
+    plant_robot robot = robot_of(p);
+    robot.trunk = bare_trunk();
+    const double longest = plant_longest_step(&robot);
+    if (p->step <= longest) return APNC_OK;
+    return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
+                       "step = %g s is too long for the servos and feet of this robot: %g s is "
+                       "the longest",
+                       p->step, floor(1e6 * longest) / 1e6);
+}
+
 /* Put the robot on the ground that its parameters ask for. */
 static apnc_status place(apnc_instance *instance) {
     static const double angles[3] = {0.0, 0.0, 0.0};
@@ -185,6 +206,7 @@ static apnc_status place(apnc_instance *instance) {
     void *plant = plant_in(instance->state);
     double coordinates[6 + 3 * APNC_LEGS], found[4 * CONTACTS];
     if (apnc_report_parameters(instance) != APNC_OK) return APNC_ERROR;
+    if (refuse_step(instance) != APNC_OK) return APNC_ERROR;
     if (prepare_site(instance) != APNC_OK) return APNC_ERROR;
     const plant_site *site = instance->own;
     const plant_robot robot = robot_of(p);
@@ -297,7 +319,10 @@ apnc_status apnc_model_step(apnc_instance *instance, double t, double h) {
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                            "step by %g s has more than %g ticks of %g s", h,
                            APNC_MAX_TICKS_PER_STEP, TICK);
-    if (instance->run->tuned) tune(instance);
+    if (instance->run->tuned) {
+        if (refuse_step(instance) != APNC_OK) return APNC_ERROR;
+        tune(instance);
+    }
     const apnc_status status = note_hurry(instance, duration);
     double part = 0.0;
     do {
@@ -308,7 +333,9 @@ apnc_status apnc_model_step(apnc_instance *instance, double t, double h) {
     instance->run->outdated = 1;
     if (plant_state_of(plant, 0) == PLANT_DIVERGED)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                           "the motion diverged before t = %.9g s", t + part * duration);
+                           "the motion diverged before t = %.9g s with integration steps of "
+                           "%.4g s",
+                           t + part * duration, p->step);
     if (plant_state_of(plant, 0) == PLANT_FELL)
         apnc_report(instance, APNC_OK, APNC_LOG_EVENTS, "fell at %.9g s", t + part * duration);
     return status;

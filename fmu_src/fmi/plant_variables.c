@@ -26,7 +26,7 @@ const apnc_variable apnc_variables[PLANT_VARIABLES] = {
     {"slope", ONE("slope", "slope"), AT(parameters, slope), 1, APNC_REAL, APNC_FIXED, 0.0, -1.5, 1.5},
     {"payload", ONE("payload", "payload"), AT(parameters, payload), 1, APNC_REAL, APNC_FIXED, 0.0, 0.0, 100.0},
     {"condition", ONE("condition", "condition"), AT(parameters, condition), 1, APNC_ENUMERATION, APNC_TUNABLE, 1.0, 1.0, 7.0},
-    {"step", ONE("step", "step"), AT(parameters, step), 1, APNC_REAL, APNC_FIXED, 0.0010416666666666667, 1e-06, 0.016666666666666666},
+    {"step", ONE("step", "step"), AT(parameters, step), 1, APNC_REAL, APNC_FIXED, ROBOT_STEP, 1e-06, 0.016666666666666666},
     {"servo.stiffness", ONE("servo.stiffness", "servo_stiffness"), AT(parameters, servo_stiffness), 1, APNC_REAL, APNC_TUNABLE, ROBOT_SERVO_STIFFNESS, 1e-06, 1000000.0},
     {"servo.damping", ONE("servo.damping", "servo_damping"), AT(parameters, servo_damping), 1, APNC_REAL, APNC_TUNABLE, ROBOT_SERVO_DAMPING, 0.0, 1000000.0},
     {"servo.stall_torque", ONE("servo.stall_torque", "servo_stall_torque"), AT(parameters, servo_stall_torque), 1, APNC_REAL, APNC_TUNABLE, ROBOT_SERVO_STALL_TORQUE, 1e-06, 1000000.0},

@@ -6,6 +6,7 @@
 
 #include "foot_mass.h"
 #include "numbers.h"
+#include "step.h"
 #include "targets.h"
 
 static const plant_kernel *kernel_of(int32_t kind, int32_t level) {
@@ -301,9 +302,36 @@ void plant_command(void *plant, int32_t lane, const double *hip, const double *k
     }
 }
 
-void plant_advance(void *plant, const plant_ground *const *grounds, double duration, double step) {
+/* Longest stable step of the robot in a lane, in its reference pose on a level plane. */
+static double stable_step_in(void *plant, int32_t lane) {
     const plant_header *h = (const plant_header *)plant;
+    plant_parts p = parts_of(h->width > 1 ? (char *)plant + h->scratch : (char *)plant);
+    robot_numbers robot;
+    trunk_state upright;
+    for (size_t i = 0; i < NUMBERS_OF(robot_numbers); i++)
+        ((double *)(void *)&robot)[i] = *of_robot(plant, h->robot, i, lane);
+    for (int32_t leg = 0; leg < h->legs; leg++)
+        for (size_t i = 0; i < NUMBERS_OF(leg_numbers); i++)
+            ((double *)(void *)&p.leg[leg])[i] =
+                *of_leg(plant, h->leg, NUMBERS_OF(leg_numbers), i, leg, lane);
+    memset(&upright, 0, sizeof upright);
+    robot.ground = (rotation){{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    p.robot = &robot;
+    p.trunk = &upright;
+    p.contacts = 0;
+    return step_of_springs(&p);
+}
+
+void plant_advance(void *plant, const plant_ground *const *grounds, double duration, double step) {
+    plant_header *h = (plant_header *)plant;
+    int32_t before[PLANT_MOST_LANES];
+    memcpy(before, h->fares, sizeof before);
     kernel_of(h->kind, h->level)->advance(plant, grounds, duration, step);
+    const double taken = duration / (double)steps_in(duration, step);
+    for (int32_t lane = 0; lane < h->robots; lane++)
+        if (before[lane] == PLANT_WALKS && h->fares[lane] == PLANT_FELL &&
+            !(taken <= stable_step_in(plant, lane)))
+            h->fares[lane] = PLANT_DIVERGED; /* it was thrown over by growing vibrations */
 }
 
 int32_t plant_state_of(const void *plant, int32_t lane) {

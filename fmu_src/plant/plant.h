@@ -146,7 +146,8 @@ enum {
 /* Instruction sets, the smallest first. */
 enum { PLANT_BASELINE = 0, PLANT_AVX2 = 1, PLANT_AVX512 = 2 };
 
-/* State of the robot in a lane. */
+/* State of the robot in a lane. A robot diverged if its speeds are not numbers or far too high, or
+ * if it came to lie with steps that are not stable, see plant_stable_step. */
 enum { PLANT_WALKS = 0, PLANT_FELL = 1, PLANT_DIVERGED = 2 };
 
 /* Purposes of random numbers; each purpose has its own sequence. */
@@ -232,6 +233,18 @@ void plant_accelerations(const void *plant, int32_t lane, double *accelerations)
 
 /* Least apparent mass of any foot along the ground at the start [kg]. */
 double plant_foot_mass(const void *plant, int32_t lane);
+
+/* Longest integration step [s] that follows the motion of a robot, see step.h. The robot is the one
+ * without payload and without the seeded error of its centre of mass. With a longer step,
+ * vibrations grow that no robot has, or its feet slip where they would not. */
+double plant_longest_step(const plant_robot *robot);
+
+/* Longest stable integration step [s]: with a longer one, vibrations grow that no robot has. */
+double plant_stable_step(const plant_robot *robot);
+
+/* Integration step [s] that a robot gets: 1/960 s, or the longest of 1/1440 s, 1/1920 s and so on
+ * that stays below the longest step by a margin. Arguments as of plant_longest_step. */
+double plant_own_step(const plant_robot *robot);
 
 /* All forces on a robot but gravity, for other engines: the same laws on their coordinates.
  *

@@ -29,10 +29,15 @@ INL void drift(const plant_parts *p, double h) {
         for (int j = 0; j < 3; j++) p->state[g].q[j] += h * p->state[g].qd[j];
 }
 
+/* Number of equal steps of at most `step` in a time. */
+INL int64_t steps_in(double duration, double step) {
+    const double wanted = ceil(duration / step - TICK_NOW);
+    return wanted > 1.0 ? (int64_t)wanted : 1;
+}
+
 INL void integrate(const plant_parts *p, const plant_ground *const *grounds, double duration,
                    double step, double *last) {
-    const double wanted = ceil(duration / step - TICK_NOW);
-    const int64_t steps = wanted > 1.0 ? (int64_t)wanted : 1;
+    const int64_t steps = steps_in(duration, step);
     const double h = duration / (double)steps;
     for (int64_t i = 0; i < steps; i++) {
         kick(p, 0.5 * h);

@@ -22,7 +22,8 @@ def test_the_apparent_mass_of_a_foot_on_a_heavy_trunk_is_its_rotors_over_their_l
     light = replace(ROBOT.legs[0].tibia, mass=1e-9, size=(1e-3, 1e-3, 1e-3))
     legs = tuple(replace(leg, hip=light, femur=light, tibia=light) for leg in ROBOT.legs)
     trunk = replace(ROBOT.trunk, mass=1e9, size=(9.0, 9.0, 9.0))
-    robot = replace(ROBOT, legs=legs, trunk=trunk)
+    smooth = replace(ROBOT.contact, friction=0.0)  # so great a weight needs no short steps then
+    robot = replace(ROBOT, legs=legs, trunk=trunk, contact=smooth)
     leg, ground = robot.legs[0], Plane(slope=0.3)
     knee = leg.tibia_length * math.cos(leg.tibia_angle - leg.femur_angle)
     hip = knee + leg.femur_length * math.cos(leg.femur_angle)

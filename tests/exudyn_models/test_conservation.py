@@ -8,6 +8,7 @@ import numpy as np
 from apnc_plant.coordinates import BASE
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.step import own_step
 from exudyn_models.plant import Plant
 
 TICK = 1 / 60
@@ -36,7 +37,7 @@ def test_without_losses_energy_is_conserved() -> None:
         contact=replace(ROBOT.contact, damping=0.0, friction=0.0),
     )
     largest = []
-    for step in (PlantOptions().step, PlantOptions().step / 4):
+    for step in (own_step(ROBOT), own_step(ROBOT) / 4):
         plant = Plant(robot, options=PlantOptions(step=step, clearance=0.01))
         start, drift = energy(plant, robot, GRAVITY), 0.0
         for _ in range(120):

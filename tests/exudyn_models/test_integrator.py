@@ -17,12 +17,13 @@ from exudyn_feet import MarkedPlant
 
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import load_robot
+from apnc_plant.step import own_step
 from exudyn_models.engine import exu, items
 from exudyn_models.plant import Plant, _solver_settings
 
 TICK = 1 / 60
-STEP = PlantOptions().step
 ROBOT = load_robot("lilibot")
+STEP = own_step(ROBOT)
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
 
 

@@ -6,6 +6,7 @@ from exudyn_feet import MarkedPlant
 
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.step import own_step
 from exudyn_models.engine import exu
 from exudyn_models.plant import Plant
 
@@ -64,7 +65,7 @@ def chatter(forces: np.ndarray) -> float:
 
 
 def test_walking_feet_do_not_chatter_stick_to_the_ground_or_leave_the_friction_cone() -> None:
-    forces = forces_while_walking(ROBOT, PlantOptions().step)
+    forces = forces_while_walking(ROBOT, own_step(ROBOT))
     assert chatter(forces) < 0.01
     assert forces[:, :, 2].min() == 0.0
     loaded = forces[:, :, 2] > 1.0
@@ -73,7 +74,7 @@ def test_walking_feet_do_not_chatter_stick_to_the_ground_or_leave_the_friction_c
 
 
 def test_chatter_would_be_seen() -> None:
-    assert chatter(forces_while_walking(ROBOT, 2.0 * PlantOptions().step)) > 0.1
+    assert chatter(forces_while_walking(ROBOT, 2.0 * own_step(ROBOT))) > 0.1
 
 
 def test_the_engine_has_the_time_of_the_plant() -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from odd_robot import odd_robot
+from unchecked import any_step
 
 from apnc_plant.conditions import Conditions, named_conditions
 from apnc_plant.ground import Obstacles, Plane
@@ -118,6 +119,7 @@ def test_a_motion_that_breaks_down_is_said_and_leaves_no_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)  # MuJoCo writes its warnings into the working folder
+    any_step(monkeypatch)
     plant = Plant(ROBOT, options=PlantOptions(step=TICK))
     with pytest.raises(PlantError, match="the motion diverged before t = "):
         for tick in range(600):

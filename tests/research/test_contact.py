@@ -12,8 +12,8 @@ from records import synthetic_record
 
 from apnc.studies.runner import grid_of
 from apnc_core.types import Array
-from apnc_plant.options import PlantOptions
 from apnc_plant.robot import load_robot
+from apnc_plant.step import own_step
 from research import contact
 from research.contact.measure import Trot, chatter, errors, touch_down
 from research.registry import STUDIES
@@ -122,7 +122,7 @@ def test_contact_is_measured_with_the_step_of_the_walk(monkeypatch: pytest.Monke
 @pytest.mark.thorough
 def test_the_default_step_is_fine_enough_for_forces() -> None:
     contact_measure = importlib.import_module("research.contact.measure")
-    steps = round(contact_measure.TICK / PlantOptions().step)
+    steps = round(contact_measure.TICK / own_step(load_robot("lilibot")))
     own, finest = (contact_measure.trot(contact.GRADUAL, n) for n in (steps, 256))
     assert contact.fine_enough(errors(own, finest))
     assert not contact.fine_enough(errors(contact_measure.trot(contact.GRADUAL, 8), finest))

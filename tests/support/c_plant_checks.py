@@ -138,12 +138,15 @@ def shown(plant: CPlant, acting: Expected, q: np.ndarray, v: np.ndarray, norm: i
 
 def foot_mass_of(body: RigidBody, plant: CPlant, ground: Numbers) -> float:
     """Least apparent mass of a foot along the ground at the start [kg]."""
-    q, v = plant.get()
-    body.move(q, v)
-    slope = ground.at.slope
+    return foot_mass_at(body, plant.get()[0], ground.at.slope)
+
+
+def foot_mass_at(body: RigidBody, q: np.ndarray, slope: float) -> float:
+    """Least apparent mass of a foot along a ground, of a robot at coordinates [kg]."""
+    body.move(q, np.zeros_like(q))
     along = np.array([[math.cos(slope), 0.0, math.sin(slope)], [0.0, 1.0, 0.0]])
     mass, least = body.mass_matrix(q), math.inf
-    for k in range(plant.legs):
+    for k in range(body.robot.legs):
         jacobian = along @ body.foot_jacobian(k)[:3]
         mobility = jacobian @ np.linalg.solve(mass, jacobian.T)
         least = min(least, 1.0 / float(np.linalg.eigvalsh(mobility)[-1]))
@@ -426,8 +429,67 @@ def side_by_side(
     return found
 
 
+def longest_step(robot: Any) -> tuple[float, float]:
+    """Longest step of springs and dampers, and of friction, of a ``plant_robot`` [s].
+
+    4 M - 2 h D - h^2 K is positive definite up to the step h that is found here by bisection.
+    """
+    body, size = RigidBody(robot), BASE + 3 * robot.legs
+    servo, contact, q = robot.servo, robot.contact, np.zeros(size)
+    body.move(q, q)
+    mass = body.mass_matrix(q)
+    up = np.array([body.foot_jacobian(k)[2] for k in range(robot.legs)])
+    joints = np.eye(size)[BASE:]
+    springs = contact.stiffness * up.T @ up + servo.stiffness * joints.T @ joints
+    brake = max(servo.damping, servo.stall_torque / servo.no_load_speed)
+    dampers = contact.damping * up.T @ up + brake * joints.T @ joints
+    low, high = 1e-9, 1.0
+    while high > low * (1.0 + 1e-6):
+        h = math.sqrt(low * high)
+        stable = np.linalg.eigvalsh(4.0 * mass - 2.0 * h * dampers - h * h * springs)[0] > 0.0
+        low, high = (h, high) if stable else (low, h)
+    load = 2.0 * robot.weight / robot.legs
+    friction = contact.friction * load / contact.friction_speed
+    return low, foot_mass_at(body, q, 0.0) / friction
+
+
+def steps(lib: Any) -> None:
+    """The longest step, and that a robot that came to lie with a longer one has not fallen."""
+    limited_by = set()
+    for seed, grip in itertools.product(range(40, 46), (0.1, 10.0)):
+        robot = random_robot(seed, 2 + seed % 5, contact={"friction": grip})
+        springs, friction = longest_step(robot.at)
+        expected = min(springs, 1.4 * friction)
+        found = lib.plant_longest_step(robot.at)
+        assert expected * (1.0 - 1e-5) < found < 1.005 * expected
+        own = lib.plant_own_step(robot.at)
+        assert own == 1.0 / (480.0 * max(2, math.ceil(1.4 / (480.0 * found))))
+        limited_by.add(springs < 1.4 * friction)
+    assert limited_by == {True, False}
+    robot = random_robot(40, 4)
+    stable = lib.plant_stable_step(robot.at)
+    for step, state in ((0.99 * stable, lib.PLANT_FELL), (1.01 * stable, lib.PLANT_DIVERGED)):
+        plant = CPlant(4, library=lib)
+        plant.place(robot, plane(), angles=(1.5, 0.0, 0.0))
+        while plant.state() == lib.PLANT_WALKS:
+            plant.command(np.zeros(4), np.zeros(4))
+            plant.advance(step, step)
+        assert plant.state() == state
+
+
 CHECKS: Final[dict[str, Check]] = {
     check.__name__: check
-    for check in (accelerations, forces, motion, sensors, noise, fall, tuning, again, lanes)
+    for check in (
+        accelerations,
+        forces,
+        motion,
+        sensors,
+        noise,
+        fall,
+        tuning,
+        again,
+        lanes,
+        steps,
+    )
 }
 """Every check by its name."""

@@ -16,8 +16,8 @@ if os.name == "nt":
 import resource
 
 from command_line import run
-from stiff import stiff_robot
 from terminal import APNC, apnc
+from unchecked import any_step
 
 
 def test_walk_writes_what_it_promises(tmp_path: Path) -> None:
@@ -56,13 +56,41 @@ def test_a_fall_is_said_and_has_its_own_code(tmp_path: Path) -> None:
     assert "fell" in done.stdout
 
 
-def test_a_run_that_diverges_is_not_interrupted_and_shows_no_huge_numbers(tmp_path: Path) -> None:
-    (tmp_path / "stiff.toml").write_text(stiff_robot())
-    done = apnc("walk", "--robot", "stiff.toml", "--duration", "9", cwd=tmp_path)
-    assert done.returncode == 1, done.stderr
-    assert "diverged at" in done.stderr and "interrupted" not in done.stderr + done.stdout
-    assert "e+" not in done.stdout
-    assert json.loads((tmp_path / "apnc-walk" / "summary.json").read_text())["end"] == "diverged"
+@pytest.mark.parametrize("engine", ["compiled", "exudyn"])
+@pytest.mark.parametrize("step", ["0.016", "0.0083"])
+def test_a_run_that_diverges_is_not_interrupted_or_a_fall_and_shows_no_huge_numbers(
+    engine: str,
+    step: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    any_step(monkeypatch)
+    code, out, err = run(
+        capsys, "walk", "--step", step, "--engine", engine, "--duration", "9"
+    )  # fmt: skip
+    assert code == 1, err
+    assert "diverged at" in err and "interrupted" not in err + out
+    assert "fell" not in err + out
+    assert "e+" not in out
+    summary = json.loads((tmp_path / "apnc-walk" / "summary.json").read_text())
+    assert summary["end"] == "diverged" and not summary["fell"]
+    assert summary["message"].endswith(f"with integration steps of {step} s")
+
+
+@pytest.mark.parametrize("step", ["0.0042", "0.0083", "0.01666"])
+def test_a_step_that_is_too_long_is_refused_in_one_line(
+    step: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(capsys, "walk", "--step", step)
+    assert (code, out) == (2, "")
+    assert err == (
+        f"apnc: step = {step} s is too long for the servos and feet of robot 'lilibot'; "
+        "allowed: 0.002185 s and less\n"
+    )
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_full_disk_names_the_file_and_leaves_the_older_run(tmp_path: Path) -> None:

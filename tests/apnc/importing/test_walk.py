@@ -26,9 +26,7 @@ def test_an_imported_dog_walks(tmp_path: Path) -> None:
     found = import_robot(model)
     path.write_text(found.toml)
     record = apnc.simulate(
-        apnc.Experiment(
-            robot=str(path), engine="compiled", duration=20.0, mi=0.15, rate=found.rate
-        )
+        apnc.Experiment(robot=str(path), engine="compiled", duration=20.0, mi=0.15, rate=found.rate)
     )
     features = apnc.walk_features(record)
     assert record.complete

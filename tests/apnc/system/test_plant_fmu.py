@@ -33,6 +33,7 @@ from apnc_plant.conditions import CONDITIONS
 from apnc_plant.ground import Obstacles, Plane
 from apnc_plant.robot import ROBOTS, load_robot
 from apnc_plant.signals import PLANT_SIGNALS
+from apnc_plant.step import own_step
 from apnc_plant.variables import COMMANDS, TABLE, Condition
 from build_fmu.platforms import host_platform
 
@@ -428,6 +429,40 @@ def test_wrong_steps_are_errors_with_a_message_and_it_goes_on(path: Path) -> Non
         robot.step()
 
 
+def test_an_integration_step_that_is_too_long_is_refused_with_the_limit(path: Path) -> None:
+    said = "is too long for the servos and feet of this robot: "
+    with plant(path) as robot:
+        with pytest.raises(FMICallException, match="error"):
+            robot.start(step=0.0042)
+        assert f"step = 0.0042 s {said}0.002185 s is the longest" in robot.messages
+        robot.put("step", 0.002185)
+        robot.exitInitializationMode()
+        robot.step()
+
+
+def test_parameters_between_steps_that_make_the_step_too_long_are_refused(path: Path) -> None:
+    with plant(path) as robot:
+        robot.start()
+        robot.put("contact.damping", 1000.0)
+        for _ in range(2):
+            with pytest.raises(FMICallException, match="error"):
+                robot.step()
+            assert robot.messages[-1].startswith("step = 0.00104167 s is too long")
+        robot.put("contact.damping", 100.0)
+        robot.step()
+
+
+def test_a_robot_that_needs_a_shorter_step_brings_it(tmp_path: Path) -> None:
+    file = tmp_path / "stiff.toml"
+    text = (ROBOTS / "lilibot.toml").read_text()
+    file.write_text(text.replace("damping = 430.0", "damping = 1000.0"))
+    build = PlantBuild(str(file), platforms=HOST)
+    with plant(plant_fmu(build)) as robot:
+        robot.start()
+        assert robot.get(["step"])[0] == own_step(build.description()) < 1 / 960
+        robot.step()
+
+
 def test_a_step_beyond_the_stop_time_is_an_error(path: Path) -> None:
     with plant(path) as robot:
         robot.setupExperiment(startTime=0.0, stopTime=TS)
@@ -441,11 +476,13 @@ def test_a_step_beyond_the_stop_time_is_an_error(path: Path) -> None:
 
 def test_a_motion_that_diverges_is_an_error_and_stays_one(path: Path) -> None:
     with plant(path) as robot:
-        robot.start(**{"servo.stiffness": 1e6, "servo.stall_torque": 1e6})
+        robot.start(**{"servo.no_load_speed": 1e6, "servo.stall_torque": 1e6})
+        robot.put("leg[1].theta_hip", 1e9)
         with pytest.raises(FMICallException, match="error"):
             for _ in range(60):
                 robot.step()
         assert "the motion diverged before t =" in robot.messages[-1]
+        assert robot.messages[-1].endswith("s with integration steps of 0.001042 s")
         with pytest.raises(FMICallException, match="error"):
             robot.step()
         assert "the motion has diverged: a reset or a saved state" in robot.messages[-1]

@@ -97,6 +97,21 @@ FAULTS = {
         "noise", "sensor.h", "h->readings[robot]++;", "h->readings[robot] += 0;"
     ),
     "corners all on one side": Fault("fall", "fall.h", "(corner >> i) & 1", "corner & 1"),
+    "damping of half the weight in the longest step": Fault(
+        "steps",
+        "step.h",
+        "(2.0 * l->damping + h * l->stiffness)",
+        "(l->damping + h * l->stiffness)",
+    ),
+    "motor as a spring alone": Fault(
+        "steps", "step.h", "s_max(servo->damping, servo->stall * servo->per_no_load)", "0.0"
+    ),
+    "friction at the load of a standing robot": Fault(
+        "steps", "step.h", "4.0 * p->robot->half_weight", "2.0 * p->robot->half_weight"
+    ),
+    "divergence that is called a fall": Fault(
+        "steps", "plant.c", "h->fares[lane] = PLANT_DIVERGED; /* it was", "; /* it was"
+    ),
     "number left out of a tuning": Fault("tuning", "plant.c", "TAKE(contact.slow);", ""),
     "noise that goes on for the next robot": Fault(
         "again", "plant.c", "h->readings[lane] = 0;", ""
@@ -144,7 +159,7 @@ def unchanged(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 def build(sources: Path, unchanged: list[Path], lanes: bool) -> Any:
     """A library of sources that may be wrong."""
     flags = [] if lanes else [PLAIN]
-    parts = objects(sources, ["plant.c", *(KERNELS if lanes else [])], sources, *flags)
+    parts = objects(sources, ["plant.c", "step.c", *(KERNELS if lanes else [])], sources, *flags)
     return linked([*parts, *unchanged], sources / "plant.so")
 
 

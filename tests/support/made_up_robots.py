@@ -1,0 +1,61 @@
+"""Robots that need a shorter integration step than the shipped ones."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from apnc_plant.robot import Body, Leg, RobotDescription, load_robot
+
+
+def stiff_kneed() -> RobotDescription:
+    """Lilibot with light tibias, small rotors and stiff servos; it falls at 1/960 s."""
+    robot = load_robot("lilibot")
+    legs = tuple(replace(leg, tibia=replace(leg.tibia, mass=0.03)) for leg in robot.legs)
+    servo = replace(
+        robot.servo, stiffness=40.0, damping=3.0, stall_torque=8.0, no_load_speed=20.0,
+        reflected_inertia=0.0003,
+    )  # fmt: skip
+    return replace(robot, name="stiff-kneed", legs=legs, servo=servo)
+
+
+def heavy(mass: float = 50.0) -> RobotDescription:
+    """Lilibot scaled to a mass [kg] at equal density and equal Froude number, with hard feet."""
+    robot = load_robot("lilibot")
+    m = mass / robot.mass
+    L = m ** (1.0 / 3.0)
+    time = math.sqrt(L)
+
+    def body(of: Body) -> Body:
+        size, com = (tuple(L * x for x in each) for each in (of.size, of.com))
+        return replace(of, mass=m * of.mass, size=size, com=com)
+
+    def leg(of: Leg) -> Leg:
+        mount, hip_offset = (tuple(L * x for x in each) for each in (of.mount, of.hip_offset))
+        links = {name: body(getattr(of, name)) for name in ("hip", "femur", "tibia")}
+        lengths = {name: L * getattr(of, name) for name in ("femur_length", "tibia_length")}
+        return replace(of, mount=mount, hip_offset=hip_offset, **links, **lengths)
+
+    trunk = replace(
+        body(robot.trunk),
+        center=tuple(L * x for x in robot.trunk.center),
+        com_side_offset=L * robot.trunk.com_side_offset,
+    )
+    servo = replace(
+        robot.servo,
+        stiffness=m * L * robot.servo.stiffness,
+        damping=m * L * time * robot.servo.damping,
+        stall_torque=m * L * robot.servo.stall_torque,
+        no_load_speed=robot.servo.no_load_speed / time,
+        reflected_inertia=m * L**2 * robot.servo.reflected_inertia,
+    )
+    contact = replace(
+        robot.contact,
+        foot_radius=L * robot.contact.foot_radius,
+        stiffness=4.0 * m / L * robot.contact.stiffness,
+        damping=4.0 * m / time * robot.contact.damping,
+    )
+    return replace(
+        robot, name="heavy", trunk=trunk, legs=tuple(map(leg, robot.legs)), servo=servo,
+        contact=contact,
+    )  # fmt: skip
