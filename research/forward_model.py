@@ -10,7 +10,7 @@ import numpy as np
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.report.figure import Figure
-from apnc.studies.claims import NO, Claim, Finding, Rule, both_criteria, verdict
+from apnc.studies.claims import NO, Claim, Judgement, Rule, both_criteria, verdict
 from apnc.studies.plots import CRITERIA, side_by_side
 from apnc.studies.results import (
     AUTHORS,
@@ -71,11 +71,11 @@ def measure(record: Record) -> Result:
 def forms(model: str) -> Rule:
     """Rule: every trial with a model forms the gait. Nine of ten is partly."""
 
-    def check(results: Sequence[Result], column: str) -> Finding:
+    def check(results: Sequence[Result], column: str) -> Judgement:
         hits = rate(successes(results, column, model=model))
         own, printed = (median(values(results, column, model=m)) for m in (model, PRINTED))
         text = f"{hits}, {own.text(1, 's')}, with the hip's {printed.text(1, 's')}"
-        return Finding(text, verdict(hits.value == 1.0, hits.value >= 0.9))
+        return Judgement(text, verdict(hits.value == 1.0, hits.value >= 0.9))
 
     return both_criteria(check)
 
@@ -86,14 +86,14 @@ def gain_falls(model: str) -> Rule:
     Below 1 is partly.
     """
 
-    def rule(results: Sequence[Result]) -> Finding:
+    def rule(results: Sequence[Result]) -> Judgement:
         both = [r for r in matching(results, model=model) if r.get(FORMING) and r.get(LATE)]
         forming, late = (median(values(both, column)) for column in (FORMING, LATE))
         ratio = median([result[LATE] / result[FORMING] for result in both])
         text = f"{forming.text(3)}, late {late.text(3)}, ratio {ratio.text(2)}, n = {ratio.size}"
         if not both:
-            return Finding(text, NO)
-        return Finding(text, verdict(ratio.high <= 0.5, ratio.high < 1.0))
+            return Judgement(text, NO)
+        return Judgement(text, verdict(ratio.high <= 0.5, ratio.high < 1.0))
 
     return rule
 

@@ -12,7 +12,7 @@ from typing import Final
 from apnc import metrics
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
-from apnc.studies.claims import FEW, Claim, Finding, verdict
+from apnc.studies.claims import FEW, Claim, Judgement, verdict
 from apnc.studies.results import STRICT, Result, values
 from apnc.studies.robots import symmetric
 from apnc.studies.statistics import median, of_runs
@@ -41,7 +41,7 @@ def measure(record: Record) -> Result:
     return {PARTED: float(apart[0]) if len(apart) else None}
 
 
-def in_phase(results: Sequence[Result]) -> Finding:
+def in_phase(results: Sequence[Result]) -> Judgement:
     """The legs stay in phase at every MI. At some of them is partly."""
     parted, trots = values(results, PARTED), values(results, STRICT)
     text = (
@@ -50,7 +50,7 @@ def in_phase(results: Sequence[Result]) -> Finding:
     )
     together = len(results) - len(parted)
     found = verdict(together == len(results), together > 0) if len(results) >= MIN_RUNS else FEW
-    return Finding(f"together in {of_runs(together, len(results))}; {text}", found)
+    return Judgement(f"together in {of_runs(together, len(results))}; {text}", found)
 
 
 CLAIM: Final = "if all loads are equal the legs stay in phase and no gait forms"

@@ -35,14 +35,14 @@ SIGNIFICANT: Final = 0.05
 """Largest p of a difference that is significant."""
 
 
-class Finding(NamedTuple):
-    """The figures that a claim was held against, as text, and the verdict."""
+class Judgement(NamedTuple):
+    """What a claim was held against, as text, and the verdict."""
 
     measured: str
     verdict: str
 
 
-Rule = Callable[[Sequence[Result]], Finding]
+Rule = Callable[[Sequence[Result]], Judgement]
 Pairs = Sequence[tuple[str, str]]
 """Pairs of labels of controllers: the one that should be faster, and the other."""
 
@@ -98,25 +98,25 @@ def of_criteria(strict: str, authors: str) -> str:
     return NO if (strict, authors) == (FEW, NO) else PARTLY
 
 
-def both_criteria(check: Callable[[Sequence[Result], str], Finding]) -> Rule:
+def both_criteria(check: Callable[[Sequence[Result], str], Judgement]) -> Rule:
     """Rule that checks by both criteria and combines the verdicts as ``of_criteria`` does."""
 
-    def rule(results: Sequence[Result]) -> Finding:
+    def rule(results: Sequence[Result]) -> Judgement:
         strict, authors = check(results, STRICT), check(results, AUTHORS)
         text = f"strict: {strict.measured}; authors': {authors.measured}"
-        return Finding(text, of_criteria(strict.verdict, authors.verdict))
+        return Judgement(text, of_criteria(strict.verdict, authors.verdict))
 
     return rule
 
 
-def each_of(labels: Sequence[str], check: Callable[[str], Finding]) -> Finding:
+def each_of(labels: Sequence[str], check: Callable[[str], Judgement]) -> Judgement:
     """Check every controller alone and combine the verdicts as ``of_all`` does."""
     found = [check(label) for label in labels]
     texts = (
         f"{named_controller(label).name}: {f.measured}"
         for label, f in zip(labels, found, strict=True)
     )
-    return Finding("; ".join(texts), of_all([f.verdict for f in found]))
+    return Judgement("; ".join(texts), of_all([f.verdict for f in found]))
 
 
 def faster(pairs: Pairs, axis: str) -> Rule:
@@ -125,16 +125,18 @@ def faster(pairs: Pairs, axis: str) -> Rule:
     Pairs without a verdict are ignored.
     """
 
-    def check(results: Sequence[Result], column: str) -> Finding:
+    def check(results: Sequence[Result], column: str) -> Judgement:
         found = [compare_times(results, column, *pair, axis) for pair in pairs]
-        return Finding("; ".join(f.measured for f in found), of_decided([f.verdict for f in found]))
+        return Judgement(
+            "; ".join(f.measured for f in found), of_decided([f.verdict for f in found])
+        )
 
     return both_criteria(check)
 
 
 def compare_times(
     results: Sequence[Result], column: str, fast: str, slow: str, axis: str
-) -> Finding:
+) -> Judgement:
     """Whether one controller has a shorter median time than another in every cell along an axis.
 
     Reproduced if it is faster in every cell, partly if in more than half of them. Over all cells
@@ -162,9 +164,9 @@ def compare_times(
         f"{wins} of {len(cells)} cells, {p_text(test.p)}, r = {test.effect:.2f}"
     )
     if len(b) < MIN_SEEDS:
-        return Finding(text, FEW)
+        return Judgement(text, FEW)
     clear = len(a) >= MIN_SEEDS and test.p <= SIGNIFICANT and test.effect < 0
-    return Finding(text, verdict(clear and wins == len(cells), clear and wins > len(cells) / 2))
+    return Judgement(text, verdict(clear and wins == len(cells), clear and wins > len(cells) / 2))
 
 
 def _won(own: Sequence[Result], other: Sequence[Result], column: str, cell: Result) -> bool:
@@ -175,16 +177,16 @@ def _won(own: Sequence[Result], other: Sequence[Result], column: str, cell: Resu
 def always(controller: str) -> Rule:
     """Every trial of a controller forms the gait. Nine of ten is partly."""
 
-    def check(results: Sequence[Result], column: str) -> Finding:
+    def check(results: Sequence[Result], column: str) -> Judgement:
         hits = rate(successes(results, column, controller=controller))
-        return Finding(str(hits), verdict(hits.value == 1.0, hits.value >= 0.9))
+        return Judgement(str(hits), verdict(hits.value == 1.0, hits.value >= 0.9))
 
     return both_criteria(check)
 
 
 def ranks(
     results: Sequence[Result], column: str, axis: str, sign: int, labels: Sequence[str]
-) -> Finding:
+) -> Judgement:
     """Whether a column rises (sign 1) or falls (-1) along an axis, by rank correlation.
 
     Args:
@@ -195,15 +197,15 @@ def ranks(
         labels: of the controllers, each checked alone.
     """
 
-    def check(label: str) -> Finding:
+    def check(label: str) -> Judgement:
         own = matching(results, controller=label)
         known = [r for r in own if is_number(r.get(column))]
         test = rank_correlation([r[axis] for r in known], [r[column] for r in known])
         n = f"n = {of_runs(len(known), len(own))}"
         if test is None or len(known) < MIN_SEEDS:
-            return Finding(f"too few, {n}", FEW)
+            return Judgement(f"too few, {n}", FEW)
         text = f"rho = {test.effect:.2f} ({p_text(test.p)}), {n}"
-        return Finding(text, verdict(sign * test.effect > 0 and test.p <= SIGNIFICANT, False))
+        return Judgement(text, verdict(sign * test.effect > 0 and test.p <= SIGNIFICANT, False))
 
     return each_of(labels, check)
 
@@ -218,17 +220,17 @@ def time_trend(axis: str, sign: int, labels: Sequence[str]) -> Rule:
     return both_criteria(lambda results, column: ranks(results, column, axis, sign, labels))
 
 
-def findings(results: Sequence[Result], claims: Sequence[Claim]) -> list[tuple[Claim, Finding]]:
-    """Every claim with its finding on these results."""
+def judgements(results: Sequence[Result], claims: Sequence[Claim]) -> list[tuple[Claim, Judgement]]:
+    """Every claim with its judgement on these results."""
     gait = gait_in(results)
-    return [(c._replace(text=c.text.format(gait=gait)), _finding(results, c)) for c in claims]
+    return [(c._replace(text=c.text.format(gait=gait)), _judgement(results, c)) for c in claims]
 
 
-def _finding(results: Sequence[Result], claim: Claim) -> Finding:
+def _judgement(results: Sequence[Result], claim: Claim) -> Judgement:
     seeds = {
         m: len({r["seed"] for r in matching(results, controller=m)}) for m in claim.controllers
     }
     if missing := [controller for controller, n in seeds.items() if n == 0]:
-        return Finding(f"not run: {', '.join(missing)}", NOT_RUN)
+        return Judgement(f"not run: {', '.join(missing)}", NOT_RUN)
     found = claim.rule(results)
-    return found if min(seeds.values()) >= claim.seeds else Finding(found.measured, FEW)
+    return found if min(seeds.values()) >= claim.seeds else Judgement(found.measured, FEW)

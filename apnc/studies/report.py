@@ -12,7 +12,7 @@ from apnc.controllers import named_controller
 from apnc.loop.provenance import what_was_run
 from apnc.report.figure import Figure
 from apnc.report.html import page
-from apnc.studies.claims import Claim, Finding, findings
+from apnc.studies.claims import Claim, Judgement, judgements
 from apnc.studies.machine import commit, processor
 from apnc.studies.plots import CRITERIA
 from apnc.studies.results import Result, columns_of, controllers_in, id_of, matching
@@ -28,7 +28,7 @@ class Part(NamedTuple):
 
     study: Study
     facts: list[tuple[str, str]]
-    claims: list[tuple[Claim, Finding]]
+    claims: list[tuple[Claim, Judgement]]
     failed: list[tuple[str, str]]
     figures: list[Figure]
 
@@ -88,7 +88,7 @@ def part_of(study: Study, grid: Sequence[Trial], results: Sequence[Result], scen
     shown = study.scenes(grid[0].experiment.robot) if scenes else []
     figures = [*study.figures(results), *shown]
     return Part(
-        study, _asked(study, grid, results), findings(results, study.claims), failed, figures
+        study, _asked(study, grid, results), judgements(results, study.claims), failed, figures
     )
 
 

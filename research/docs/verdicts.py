@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
-from apnc.studies.claims import NO, PARTLY, YES, findings
+from apnc.studies.claims import NO, PARTLY, YES, judgements
 from apnc.studies.registry import ALL, STUDIES, names_of
 from apnc.studies.results import Result
 from apnc.studies.runner import run_trials
@@ -51,7 +51,7 @@ def measured(workers: int) -> Iterator[dict[str, str]]:
         for result in run_trials(trials_of(name), workers=workers):
             groups[result["seed"] // SEEDS].append(result)
         for group, results in sorted(groups.items()):
-            for claim, found in findings(results, load(STUDIES[name]).claims):
+            for claim, found in judgements(results, load(STUDIES[name]).claims):
                 yield {
                     "seeds": f"{group * SEEDS} to {group * SEEDS + SEEDS - 1}",
                     "where": claim.section,

@@ -9,7 +9,7 @@ from typing import Any, Final, NamedTuple
 from apnc.controllers import ALL, named_controller
 from apnc.loop.experiment import Experiment
 from apnc.report.figure import Figure
-from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Finding, Rule, verdict
+from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Judgement, Rule, verdict
 from apnc.studies.plots import over_axis
 from apnc.studies.registry import STUDIES
 from apnc.studies.results import Result, cells_in, controllers_in, matching, values
@@ -100,14 +100,14 @@ def _in_condition(
 ) -> Rule:
     """Rule on all tests of a condition. It is partly at most if a test could not be made."""
 
-    def rule(results: Sequence[Result]) -> Finding:
+    def rule(results: Sequence[Result]) -> Judgement:
         tests = [test for test in comparisons(results) if test.condition == condition]
         told = [holds(test) for test in tests if test.test]
         text = "; ".join(test.text for test in tests)
         if not told:
-            return Finding(text, FEW)
+            return Judgement(text, FEW)
         full = all(told) and len(told) == len(tests)
-        return Finding(text, verdict(full, enough(sum(told) / len(told))))
+        return Judgement(text, verdict(full, enough(sum(told) / len(told))))
 
     return rule
 

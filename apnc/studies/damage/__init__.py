@@ -9,7 +9,7 @@ from typing import Final
 from apnc.controllers import ALL, BASELINES, named_controller
 from apnc.loop.experiment import Experiment
 from apnc.report.figure import Figure
-from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Finding, verdict
+from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Judgement, verdict
 from apnc.studies.plots import LOOKS, counted, side_by_side
 from apnc.studies.registry import STUDIES
 from apnc.studies.results import SPEED, Result, controllers_in, matching, values
@@ -17,7 +17,7 @@ from apnc.studies.statistics import compare, holm, median, p_text
 from apnc.studies.study import SCHEDULE_MI, WALK_S, Study, fewer_of_others
 
 
-def fastest(results: Sequence[Result]) -> Finding:
+def fastest(results: Sequence[Result]) -> Judgement:
     """APNC is significantly faster than every baseline (Holm). Than some of them is partly.
 
     A baseline with fewer than ``MIN_SEEDS`` speeds does not count.
@@ -33,7 +33,7 @@ def fastest(results: Sequence[Result]) -> Finding:
         for label, found in speeds.items()
     )
     holds = verdict(beaten == len(told), beaten > 0)
-    return Finding("; ".join(texts), holds if told and len(own) >= MIN_SEEDS else FEW)
+    return Judgement("; ".join(texts), holds if told and len(own) >= MIN_SEEDS else FEW)
 
 
 def figures(results: Sequence[Result]) -> list[Figure]:

@@ -21,7 +21,7 @@ from apnc.studies.claims import (
     MIN_SEEDS,
     SIGNIFICANT,
     Claim,
-    Finding,
+    Judgement,
     both_criteria,
     each_of,
     verdict,
@@ -137,13 +137,13 @@ def _reference(results: Sequence[Result], label: str) -> float | None:
     return best_setting(results) if label in PARAMETERS else 1.0
 
 
-def too_strong(results: Sequence[Result]) -> Finding:
+def too_strong(results: Sequence[Result]) -> Judgement:
     """Whether oscillators stop at the strongest gain and none does at the best gain.
 
     Reproduced if one stops in half of the runs at the strongest gain, partly if in some.
     """
 
-    def of(label: str) -> Finding:
+    def of(label: str) -> Judgement:
         own = matching(results, controller=label)
         good, most = _reference(own, label), max(cells_in(own, "gain"))
         at_best, at_most = (
@@ -151,20 +151,20 @@ def too_strong(results: Sequence[Result]) -> Finding:
         )
         text = f"stopped in {at_most} at {most:g}, in {at_best} at {_text(good)}"
         if good in (None, most) or min(at_best.trials, at_most.trials) < MIN_SEEDS:
-            return Finding(text, FEW)
+            return Judgement(text, FEW)
         none = at_best.successes == 0
-        return Finding(text, verdict(none and at_most.value >= 0.5, none and at_most.value > 0))
+        return Judgement(text, verdict(none and at_most.value >= 0.5, none and at_most.value > 0))
 
     return each_of(("tegotae", "apnc"), of)
 
 
-def too_weak(results: Sequence[Result], column: str) -> Finding:
+def too_weak(results: Sequence[Result], column: str) -> Judgement:
     """Whether the gait forms significantly later at the weakest gain than at the best.
 
     A run in which it never forms counts with its duration.
     """
 
-    def of(label: str) -> Finding:
+    def of(label: str) -> Judgement:
         own = matching(results, controller=label)
         good, least = _reference(own, label), min(cells_in(own, "gain"))
         weak, best = (matching(own, gain=gain) for gain in (least, good))
@@ -173,8 +173,8 @@ def too_weak(results: Sequence[Result], column: str) -> Finding:
         shown = (median(values(part, column)).text(1, "s", len(part)) for part in (weak, best))
         text = f"{next(shown)} at {least:g}, {next(shown)} at {_text(good)}, {p_text(test.p)}"
         if good in (None, least) or min(len(part) for part in times) < MIN_SEEDS:
-            return Finding(text, FEW)
-        return Finding(text, verdict(test.effect > 0 and test.p <= SIGNIFICANT, False))
+            return Judgement(text, FEW)
+        return Judgement(text, verdict(test.effect > 0 and test.p <= SIGNIFICANT, False))
 
     return each_of(("tegotae", "apnc"), of)
 

@@ -11,7 +11,7 @@ import numpy as np
 from apnc.feet import Feet
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
-from apnc.studies.claims import Claim, Finding, Rule, verdict
+from apnc.studies.claims import Claim, Judgement, Rule, verdict
 from apnc.studies.plots import over_axis
 from apnc.studies.registry import STUDIES
 from apnc.studies.results import STRICT, Result, cells_in, gait_in, matching, successes, values
@@ -68,13 +68,13 @@ def forms(low: float, high: float, share: float) -> Rule:
     Partly if it does at more than half of them.
     """
 
-    def rule(results: Sequence[Result]) -> Finding:
+    def rule(results: Sequence[Result]) -> Judgement:
         mis = [mi for mi in cells_in(results, "mi") if low <= mi <= high]
         rates = {mi: rate(successes(results, mi=mi)) for mi in mis}
         reached = sum(found.value >= share for found in rates.values())
         short = [f"MI {mi:g}: {hit}" for mi, hit in rates.items() if hit.value < share]
         text = f"at {reached} of {len(mis)} MI" + (f"; {', '.join(short)}" if short else "")
-        return Finding(text, verdict(reached == len(mis) > 0, reached > len(mis) / 2))
+        return Judgement(text, verdict(reached == len(mis) > 0, reached > len(mis) / 2))
 
     return rule
 
@@ -82,16 +82,16 @@ def forms(low: float, high: float, share: float) -> Rule:
 def quickly(limit: float) -> Rule:
     """Rule: the median strict time is at most a limit [s] at every MI of ``CORE``."""
 
-    def rule(results: Sequence[Result]) -> Finding:
+    def rule(results: Sequence[Result]) -> Judgement:
         times = _by_mi(_core(results), STRICT)
         medians = {mi: float(np.median(found)) for mi, found in times.items() if found}
         if not medians:
-            return Finding("no run forms the gait", verdict(False, False))
+            return Judgement("no run forms the gait", verdict(False, False))
         low, high = min(medians.values()), max(medians.values())
         quick = sum(value <= limit for value in medians.values())
         longest = max(max(found) for found in times.values() if found)
         text = f"medians {low:.1f} ... {high:.1f} s, longest run {longest:.1f} s"
-        return Finding(text, verdict(quick == len(times), quick > len(times) / 2))
+        return Judgement(text, verdict(quick == len(times), quick > len(times) / 2))
 
     return rule
 
@@ -104,13 +104,13 @@ def worst(column: str, unit: str, digits: int, scale: float, fits: tuple[float, 
 
     Args:
         column: the figure.
-        unit: unit in the text of the finding.
+        unit: unit in the text of the judgement.
         digits: digits after the point in that text.
         scale: factor on the figure in that text.
         fits: smallest and largest allowed median.
     """
 
-    def rule(results: Sequence[Result]) -> Finding:
+    def rule(results: Sequence[Result]) -> Judgement:
         low, high = fits
         inside, texts = 0, []
         cells = cells_in(results, "mi")
@@ -124,7 +124,7 @@ def worst(column: str, unit: str, digits: int, scale: float, fits: tuple[float, 
                 shown = "-" if median_value is None else f"{scale * median_value:.{digits}f}"
                 texts.append(f"{shown} at {mi:g}")
         text = f"at {inside} of {len(cells)} MI" + (f"; {unit} {', '.join(texts)}" if texts else "")
-        return Finding(text, verdict(inside == len(cells) > 0, inside > len(cells) / 2))
+        return Judgement(text, verdict(inside == len(cells) > 0, inside > len(cells) / 2))
 
     return rule
 
@@ -135,10 +135,10 @@ def straight(median_limit: float, limit: float) -> Rule:
     Partly if the median is within its limit at more than half of the MI.
     """
 
-    def rule(results: Sequence[Result]) -> Finding:
+    def rule(results: Sequence[Result]) -> Judgement:
         turns = {mi: np.abs(found) for mi, found in _by_mi(results, TURNED).items() if found}
         if not turns:
-            return Finding("nothing walked", verdict(False, False))
+            return Judgement("nothing walked", verdict(False, False))
         medians = {mi: float(np.median(found)) for mi, found in turns.items()}
         low = sum(value <= median_limit for value in medians.values())
         all_low = sum(float(found.max()) <= limit for found in turns.values())
@@ -147,7 +147,7 @@ def straight(median_limit: float, limit: float) -> Rule:
             f"{max(medians.values()):.0f}), every run at most {limit:g} deg at {all_low} (largest "
             f"{max(float(found.max()) for found in turns.values()):.0f})"
         )
-        return Finding(text, verdict(low == all_low == len(turns), low > len(turns) / 2))
+        return Judgement(text, verdict(low == all_low == len(turns), low > len(turns) / 2))
 
     return rule
 

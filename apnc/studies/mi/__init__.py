@@ -18,7 +18,7 @@ from apnc.studies.claims import (
     FEW,
     MIN_SEEDS,
     Claim,
-    Finding,
+    Judgement,
     Rule,
     both_criteria,
     faster,
@@ -65,26 +65,26 @@ def within(limit: float) -> Rule:
     Partly if not every trial forms it.
     """
 
-    def check(results: Sequence[Result], column: str) -> Finding:
+    def check(results: Sequence[Result], column: str) -> Judgement:
         time = median(values(results, column, controller="apnc"))
         hits = rate(successes(results, column, controller="apnc"))
         fast = time.size > 0 and time.value <= limit
         text = f"{time.text(1, 's')}, success {hits}"
-        return Finding(text, verdict(fast and hits.value == 1.0, fast))
+        return Judgement(text, verdict(fast and hits.value == 1.0, fast))
 
     return both_criteria(check)
 
 
-def duty_at_high_mi(results: Sequence[Result]) -> Finding:
+def duty_at_high_mi(results: Sequence[Result]) -> Judgement:
     """From MI 0.24 on the median duty factor is within 0.05 of 0.72. Within 0.1 is partly."""
     high = [result for result in matching(results, controller="apnc") if result["mi"] >= 0.24]
     duty = median(values(high, DUTY))
     off = abs(duty.value - 0.72)
     text = duty.text(2, runs=len(high))
-    return Finding(text, verdict(off <= 0.05, off <= 0.1) if duty.size >= MIN_SEEDS else FEW)
+    return Judgement(text, verdict(off <= 0.05, off <= 0.1) if duty.size >= MIN_SEEDS else FEW)
 
 
-def stride_line(results: Sequence[Result]) -> Finding:
+def stride_line(results: Sequence[Result]) -> Judgement:
     """The median frequency of the oscillators is within 15 % of 8.6 MI + 0.5 Hz.
 
     Partly if it only rises with MI.
@@ -93,13 +93,13 @@ def stride_line(results: Sequence[Result]) -> Finding:
         result for result in matching(results, controller="apnc") if is_number(result.get(STRIDE))
     ]
     if len({result["mi"] for result in known}) < 3:
-        return Finding("too few", FEW)
+        return Judgement("too few", FEW)
     mi, frequency = (np.array([result[name] for result in known]) for name in ("mi", STRIDE))
     fit = stats.linregress(mi, frequency)
     off = float(np.median(np.abs(frequency / (8.6 * mi + 0.5) - 1.0)))
     line = f"S_f = {fit.slope:.1f} MI + {fit.intercept:.2f}"
     text = f"{line}; the median stride is {100 * off:.0f} % off the paper's line"
-    return Finding(text, verdict(off <= 0.15, fit.slope > 0))
+    return Judgement(text, verdict(off <= 0.15, fit.slope > 0))
 
 
 def measure(record: Record) -> Result:

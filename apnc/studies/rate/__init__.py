@@ -10,7 +10,7 @@ from apnc.controllers import ALL, BASELINES, TEGOTAE
 from apnc.loop.experiment import Experiment
 from apnc.studies.claims import (
     Claim,
-    Finding,
+    Judgement,
     Rule,
     always,
     both_criteria,
@@ -34,14 +34,14 @@ OTHERS_RATES: Final = (5.0, 15.0, 25.0, 30.0, 60.0)
 def only_above(limit: float, controllers: Sequence[str]) -> Rule:
     """Rule: every trial of these controllers forms the gait above a rate [Hz], not all up to it."""
 
-    def check(results: Sequence[Result], column: str) -> Finding:
+    def check(results: Sequence[Result], column: str) -> Judgement:
         low = [result for result in results if result["rate"] <= limit]
         high = [result for result in results if result["rate"] > limit]
 
-        def of(controller: str) -> Finding:
+        def of(controller: str) -> Judgement:
             below, above = (rate(successes(r, column, controller=controller)) for r in (low, high))
             text = f"{below} up to {limit:g} Hz, {above} above"
-            return Finding(text, verdict(above.value == 1.0 and below.value < 1.0, False))
+            return Judgement(text, verdict(above.value == 1.0 and below.value < 1.0, False))
 
         return each_of(controllers, of)
 

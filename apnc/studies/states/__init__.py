@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from apnc.controllers import BASELINES, named_controller
-from apnc.studies.claims import FEW, MIN_SEEDS, Claim, Finding, Rule, of_decided, verdict
+from apnc.studies.claims import FEW, MIN_SEEDS, Claim, Judgement, Rule, of_decided, verdict
 from apnc.studies.registry import STUDIES
 from apnc.studies.results import Result, controllers_in, gait_in, is_number, matching, values
 from apnc.studies.states.figures import COUPLINGS, STATES, figures, scenes
@@ -41,14 +41,14 @@ def state(name: str, controller: str, when: tuple[str, str] | None = None) -> Ru
         when: column with a time [s] to add to the text, and the word before it.
     """
 
-    def rule(results: Sequence[Result]) -> Finding:
+    def rule(results: Sequence[Result]) -> Judgement:
         runs = matching(results, controller=controller)
         hits = rate([bool(result.get(f"state_{name}")) for result in runs])
         speed = median(values(runs, f"state_speed_{name.lower()}"))
         text = f"{hits}, speed {speed.text(3, 'm/s', len(runs))}"
         if when:
             text += f", {when[1]} after {median(values(runs, when[0])).text(1, 's', len(runs))}"
-        return Finding(text, verdict(hits.value == 1.0, hits.value >= 0.5))
+        return Judgement(text, verdict(hits.value == 1.0, hits.value >= 0.5))
 
     return rule
 
@@ -59,28 +59,28 @@ def without_gait(name: str) -> Rule:
     Less than half of the runs is partly. In S2 only runs count that had the gait at the break.
     """
 
-    def rule(results: Sequence[Result]) -> Finding:
-        def of(label: str) -> Finding:
+    def rule(results: Sequence[Result]) -> Judgement:
+        def of(label: str) -> Judgement:
             runs = matching(results, controller=label)
             runs = matching(runs, state_S1=True) if name == "S2" else runs
             hits = rate([bool(result.get(f"state_{name}")) for result in runs])
             speed = median(values(runs, f"state_speed_{name.lower()}"))
             text = f"{gait_in(results)} in {hits}, speed {speed.text(3, 'm/s', len(runs))}"
             if hits.trials < MIN_SEEDS:
-                return Finding(text, FEW)
-            return Finding(text, verdict(hits.successes == 0, hits.value < 0.5))
+                return Judgement(text, FEW)
+            return Judgement(text, verdict(hits.successes == 0, hits.value < 0.5))
 
         found = [of(label) for label in BASELINES]
         texts = (
             f"{named_controller(m).name}: {f.measured}"
             for m, f in zip(BASELINES, found, strict=True)
         )
-        return Finding("; ".join(texts), of_decided([f.verdict for f in found]))
+        return Judgement("; ".join(texts), of_decided([f.verdict for f in found]))
 
     return rule
 
 
-def gamma_by_itself(results: Sequence[Result]) -> Finding:
+def gamma_by_itself(results: Sequence[Result]) -> Judgement:
     """With all feedback kept, the median of gamma falls to half or less once the couplings are on.
 
     A fall to four fifths is partly. APNC keeps less feedback, so its gamma falls by construction
@@ -99,9 +99,9 @@ def gamma_by_itself(results: Sequence[Result]) -> Finding:
         texts.append(f"{named_controller(label).name}: {fall}, n = {len(runs)}")
     text = f"imposed in APNC by feedback_kept; {'; '.join(texts)}"
     if len(ratios) < MIN_SEEDS:
-        return Finding(text, FEW)
+        return Judgement(text, FEW)
     ratio = median(ratios)
-    return Finding(
+    return Judgement(
         f"{text}, ratio {ratio.text(2)}", verdict(ratio.value <= 0.5, ratio.value <= 0.8)
     )
 

@@ -11,7 +11,7 @@ import numpy as np
 from apnc import metrics
 from apnc.loop.record import Record
 from apnc.loop.schedule import steps_of
-from apnc.studies.claims import FEW, MIN_SEEDS, NO, PARTLY, YES, Claim, Finding, ranks, verdict
+from apnc.studies.claims import FEW, MIN_SEEDS, NO, PARTLY, YES, Claim, Judgement, ranks, verdict
 from apnc.studies.registry import STUDIES
 from apnc.studies.results import Result, cells_in, matching, values
 from apnc.studies.statistics import median
@@ -53,7 +53,7 @@ def measure(record: Record) -> Result:
     return found
 
 
-def speed_steps(results: Sequence[Result]) -> Finding:
+def speed_steps(results: Sequence[Result]) -> Judgement:
     """The step of MI doubles the speed, within a fifth, and the speed returns within 15 %.
 
     Faster at the higher MI is partly.
@@ -62,13 +62,13 @@ def speed_steps(results: Sequence[Result]) -> Finding:
     low, high, again = (median(values(runs, f"{SPEED}_{i}")) for i in (1, 2, 3))
     text = ", ".join(each.text(3, "m/s", len(runs)) for each in (low, high, again))
     if min(low.size, high.size, again.size) < MIN_SEEDS:
-        return Finding(text, FEW)
+        return Judgement(text, FEW)
     doubled = 1.6 <= high.value / low.value <= 2.4
     back = abs(again.value / low.value - 1.0) <= 0.15
-    return Finding(text, verdict(doubled and back, high.value > low.value))
+    return Judgement(text, verdict(doubled and back, high.value > low.value))
 
 
-def turns(results: Sequence[Result]) -> Finding:
+def turns(results: Sequence[Result]) -> Judgement:
     """The 95 % intervals of the yaw rate are below 0 to the right and above 0 to the left.
 
     A smaller median to the right than to the left is partly.
@@ -77,11 +77,11 @@ def turns(results: Sequence[Result]) -> Finding:
     right, left = (median(values(runs, f"{YAW_RATE}_{i}")) for i in (2, 3))
     text = f"right {right.text(2, 'rad/s', len(runs))}, left {left.text(2, 'rad/s', len(runs))}"
     if min(right.size, left.size) < MIN_SEEDS:
-        return Finding(text, FEW)
-    return Finding(text, verdict(right.high < 0.0 < left.low, right.value < left.value))
+        return Judgement(text, FEW)
+    return Judgement(text, verdict(right.high < 0.0 < left.low, right.value < left.value))
 
 
-def slopes_speed(results: Sequence[Result]) -> Finding:
+def slopes_speed(results: Sequence[Result]) -> Judgement:
     """Speed rises with the slopes, see ``ranks``. Only up to the robot's own slopes is partly."""
     runs = [
         {**result, "slopes": SLOPES[result["schedule"]]}
@@ -96,7 +96,7 @@ def slopes_speed(results: Sequence[Result]) -> Finding:
     every = ranks(runs, column, "slopes", 1, ("apnc",))
     lower = ranks([r for r in runs if r["slopes"] <= 1.0], column, "slopes", 1, ("apnc",))
     found = PARTLY if (every.verdict, lower.verdict) == (NO, YES) else every.verdict
-    return Finding(f"{every.measured}; {text}", found)
+    return Judgement(f"{every.measured}; {text}", found)
 
 
 CLAIMS: Final = (

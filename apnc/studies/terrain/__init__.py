@@ -14,7 +14,7 @@ from apnc.studies.claims import (
     MIN_SEEDS,
     SIGNIFICANT,
     Claim,
-    Finding,
+    Judgement,
     always,
     both_criteria,
     each_of,
@@ -40,23 +40,23 @@ def experiment(seed: int, roughness: float, **fields: Any) -> Experiment:
     return Experiment(seed=seed, ground=ground, mi=WALK_MI, duration=WALK_S, **fields)
 
 
-def spread_grows(results: Sequence[Result], column: str) -> Finding:
+def spread_grows(results: Sequence[Result], column: str) -> Judgement:
     """For every controller, the times spread significantly more above R = 0.5 than up to it."""
     smooth = [result for result in results if result["roughness"] <= 0.5]
     rough = [result for result in results if result["roughness"] > 0.5]
 
-    def of(controller: str) -> Finding:
+    def of(controller: str) -> Judgement:
         a, b = (values(part, column, controller=controller) for part in (smooth, rough))
         if min(len(a), len(b)) < MIN_SEEDS:
-            return Finding(f"too few, n = {len(a)} and {len(b)}", FEW)
+            return Judgement(f"too few, n = {len(a)} and {len(b)}", FEW)
         test = compare_spread(a, b)
         text = f"{np.std(a):.1f} s up to R = 0.5, {np.std(b):.1f} s above, {p_text(test.p)}"
-        return Finding(text, verdict(test.effect > 0 and test.p <= SIGNIFICANT, False))
+        return Judgement(text, verdict(test.effect > 0 and test.p <= SIGNIFICANT, False))
 
     return each_of(ALL, of)
 
 
-def fails_above(results: Sequence[Result], column: str) -> Finding:
+def fails_above(results: Sequence[Result], column: str) -> Judgement:
     """For each setting of Tegotae, every trial forms the gait up to R = 0.8, and not all above.
 
     Significantly fewer above is partly. No verdict for a setting that forms it in fewer than
@@ -65,16 +65,16 @@ def fails_above(results: Sequence[Result], column: str) -> Finding:
     low = [result for result in results if result["roughness"] <= 0.8]
     high = [result for result in results if result["roughness"] > 0.8]
 
-    def of(controller: str) -> Finding:
+    def of(controller: str) -> Judgement:
         below, above = (
             rate(successes(part, column, controller=controller)) for part in (low, high)
         )
         test = compare_rates(below, above)
         text = f"{below} up to R = 0.8, {above} above, {p_text(test.p)}"
         if below.successes < MIN_SEEDS or above.trials < MIN_SEEDS:
-            return Finding(text, FEW)
+            return Judgement(text, FEW)
         full = below.value == 1.0 and above.value < 1.0
-        return Finding(text, verdict(full, test.effect < 0 and test.p <= SIGNIFICANT))
+        return Judgement(text, verdict(full, test.effect < 0 and test.p <= SIGNIFICANT))
 
     return each_of(TEGOTAE, of)
 

@@ -31,7 +31,7 @@ from apnc.studies.claims import (
     Claim,
     always,
     faster,
-    findings,
+    judgements,
     of_all,
     of_criteria,
     of_decided,
@@ -69,7 +69,7 @@ def when(**by_label: Any) -> Callable[[Result], Result]:
 
 
 def verdict(claim: Claim, results: Sequence[Result]) -> str:
-    return findings(results, [claim])[0][1].verdict
+    return judgements(results, [claim])[0][1].verdict
 
 
 def claims_of(study: str) -> tuple[Claim, ...]:
@@ -516,14 +516,14 @@ def test_few_seeds_and_methods_that_were_not_run_give_no_verdict(name: str) -> N
         results = next(c[2] for c in CASES if c[0] == name and claim.text.startswith(c[1]))
         for controller in claim.controllers:
             missing = [result for result in results if result["controller"] != controller]
-            assert findings(missing, [claim])[0][1] == (f"not run: {controller}", NOT_RUN)
+            assert judgements(missing, [claim])[0][1] == (f"not run: {controller}", NOT_RUN)
             few = [
                 result
                 for result in results
                 if result["controller"] != controller or result["seed"] < claim.seeds - 1
             ]
             if claim.seeds > 1:
-                assert findings(few, [claim])[0][1] == (claim.rule(few).measured, FEW)
+                assert judgements(few, [claim])[0][1] == (claim.rule(few).measured, FEW)
 
 
 def test_five_seeds_are_enough() -> None:
