@@ -106,7 +106,11 @@ def _atan(x: Array) -> Array:
 
 
 def total(x: Array) -> float:
-    """Sum of ``x``, shape (n,), in four parts, entry k in part k modulo 4."""
+    """Sum of ``x``, shape (n,), by four partial sums: (p0 + p1) + (p2 + p3).
+
+    Entry k is added to the partial sum k modulo 4. The C core adds in the same order, in which a
+    compiler can take several entries at once, so both round alike.
+    """
     part = [0.0, 0.0, 0.0, 0.0]
     for k, value in enumerate(x.tolist()):
         part[k % 4] += value

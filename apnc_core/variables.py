@@ -1,7 +1,9 @@
 """The table of variables: names, units, ranges, defaults and sources are written here alone.
 
-modelDescription.xml, the C header and descriptor table, ``apnc_core/interface.py`` and the
-table in the documentation are generated from it (``python -m build_fmu.generate``).
+``python -m build_fmu.generate`` writes the files that are made from it and kept in the repository,
+``TARGETS`` in ``build_fmu/generate.py`` and ``build_fmu/modelica.py``: header and table in C,
+``apnc_core/interface.py``, the page of variables and parts of the Modelica package. The model
+description is made from it when an FMU is built.
 """
 
 from __future__ import annotations

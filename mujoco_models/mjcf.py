@@ -36,7 +36,7 @@ _add = ElementTree.SubElement
 
 
 def tree_mjcf(robot: RobotDescription, trunk: MassProperties) -> str:
-    """The robot in the coordinates of ``apnc_plant.coordinates``, for our own plant.
+    """The robot in the coordinates of ``apnc_plant.coordinates``, for ``mujoco_models.plant``.
 
     The base has three slides and three hinges, and hip and knee turn about +y. The model has
     neither actuators nor a ground: the plant computes all forces.

@@ -1,4 +1,8 @@
-"""The columns of ``record.csv``: every signal of a run, an entry at a time."""
+"""The columns of ``record.csv``: every signal of a run, an entry at a time.
+
+They follow from two tables: the variables of the controller in ``apnc_core/variables.py`` and the
+signals of the robot in ``apnc_plant/signals.py``. A new entry there becomes a column by itself.
+"""
 
 from __future__ import annotations
 

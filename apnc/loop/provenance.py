@@ -20,7 +20,7 @@ _LIBRARIES: Final = ("cffi", "exudyn", "fmpy", "numpy")
 def what_was_run(
     experiment: Experiment, parameters: Mapping[str, Setting] | None = None
 ) -> dict[str, Any]:
-    """The command that repeats it, the whole experiment, all parameters, and versions.
+    """The command that repeats the run, the whole experiment, all parameters, and versions.
 
     Args:
         experiment: what was run.

@@ -1,4 +1,7 @@
-"""A file of results. Each is appended when its trial ends, so a kill loses no finished trial."""
+"""A file of results. Each is appended when its trial ends.
+
+If the process is killed, the results of all trials that have ended are in the file.
+"""
 
 from __future__ import annotations
 

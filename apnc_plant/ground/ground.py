@@ -232,7 +232,11 @@ def _number(text: str) -> object:
 
 @cache
 def _types(cls: type[Ground]) -> dict[str, Any]:
-    """Types of the fields that hold numbers; a ground checks its other fields itself."""
+    """Types of the fields that hold numbers or tuples of numbers.
+
+    Only these are checked here. A ground with a field of another type checks that field in its own
+    ``__post_init__``.
+    """
     try:
         hints = get_type_hints(cls)
     except NameError:  # the class is defined inside a function
