@@ -40,3 +40,10 @@ def test_the_site_loads_nothing_from_elsewhere() -> None:
     assert SITE["theme"]["font"] is False
     own = [*SITE["extra_css"], *SITE["extra_javascript"]]
     assert all((DOCS / name).is_file() for name in own)
+
+
+def test_links_to_the_page_to_play_with_lead_to_it() -> None:
+    """In HTML, too, a link is written from the page in ``docs``: the site's address is another."""
+    for page in (DOCS / "index.md", DOCS / "play.md"):
+        (target,) = re.findall(r'href="([^"]*page\.html)"', page.read_text("utf-8"))
+        assert page.parent / target == DOCS / "play" / "page.html"
