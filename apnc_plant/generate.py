@@ -11,10 +11,10 @@ from typing import Final
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
-from apnc_core.schema import Causality, Shape, Type, Variable
+from apnc_core.schema import VR_STRIDE, Causality, Shape, Type, Variable
 from apnc_plant.variable_numbers import VARIABLE_NUMBERS
 from apnc_plant.variables import ENUMERATIONS, TABLE, is_of_robot
-from build_fmu.generate import c_unit, limits, numbers_of, snake
+from build_fmu.generate import PAGE_FILTERS, c_unit, limits, numbers_of, snake
 
 ROOT: Final = Path(__file__).resolve().parent.parent
 
@@ -22,6 +22,7 @@ TARGETS: Final = {
     "plant_variables.h.j2": "fmu_src/fmi/plant_variables.h",
     "plant_variables.c.j2": "fmu_src/fmi/plant_variables.c",
     "variable_numbers.py.j2": "apnc_plant/variable_numbers.py",
+    "plant_variables.md.j2": "docs/plant_variables.md",
 }
 
 _C_GROUP: Final = {
@@ -39,6 +40,14 @@ def start_macro(v: Variable) -> str:
 def _c_start(v: Variable) -> str:
     own = v.causality is Causality.parameter and is_of_robot(v)
     return start_macro(v) if own else repr(float(v.start or 0.0))
+
+
+def _md_start(v: Variable) -> str:
+    if v.causality is not Causality.parameter:
+        return ""
+    if is_of_robot(v):
+        return "the robot's"
+    return v.enumeration.items(int(v.start or 0)).name if v.enumeration else f"{v.start:g}"
 
 
 def _c_field(v: Variable) -> str:
@@ -68,20 +77,27 @@ def render() -> dict[str, str]:
         keep_trailing_newline=True,
         autoescape=False,
     )
-    env.filters |= {
+    numbers, known = numbers_of(TABLE, VARIABLE_NUMBERS), {v.name: v for v in TABLE}
+    env.filters |= PAGE_FILTERS | {
+        "md_start": _md_start,
+        "md_reference": lambda v: VR_STRIDE * numbers[v.name],
         "c_field": _c_field,
         "c_variable": _c_variable,
         "c_unit": c_unit,
         "c_snake": snake,
         "c_const": lambda name: snake(name).upper(),
     }
-    numbers, known = numbers_of(TABLE, VARIABLE_NUMBERS), {v.name: v for v in TABLE}
     of = {c: [v for v in TABLE if v.causality is c] for c in Causality}
     context = {
         "command": "apnc_plant.generate",
         "numbers": numbers,
         "table": [known.get(name) for name in numbers],
         "enumerations": ENUMERATIONS,
+        "groups": [
+            ("Inputs", of[Causality.input]),
+            ("Outputs", of[Causality.output]),
+            ("Parameters", of[Causality.parameter]),
+        ],
         "structs": [
             ("plant_parameters", "Parameters.", of[Causality.parameter]),
             ("plant_inputs", "Inputs of one step.", of[Causality.input]),

@@ -155,7 +155,9 @@ def _md_start(v: Variable) -> str:
 
 
 def _md_range(v: Variable) -> str:
-    return "" if v.min is None or v.max is None else f"{v.min:g} ... {v.max:g}"
+    if v.min is None or v.max is None:
+        return ""
+    return f"{v.min} ... {v.max}" if v.type is Type.integer else f"{v.min:g} ... {v.max:g}"
 
 
 def _md_type(v: Variable) -> str:
@@ -165,6 +167,19 @@ def _md_type(v: Variable) -> str:
 
 def _md_unit(v: Variable) -> str:
     return f"{v.unit} ({v.display_unit})" if v.display_unit else v.unit or ""
+
+
+def _md_entries(v: Variable) -> str:
+    return {Shape.scalar: "", Shape.leg: "per leg", Shape.relation: "per relation"}[v.shape]
+
+
+PAGE_FILTERS: Final = {
+    "md_entries": _md_entries,
+    "md_range": _md_range,
+    "md_type": _md_type,
+    "md_unit": _md_unit,
+}
+"""Filters of the pages that list variables."""
 
 
 def _environment() -> Environment:
@@ -183,13 +198,8 @@ def _environment() -> Environment:
         "c_field": c_field,
         "c_unit": c_unit,
         "c_variable": c_variable,
-        "md_entries": lambda v: {"scalar": "", "leg": "per leg", "relation": "per relation"}[
-            v.shape
-        ],
+        **PAGE_FILTERS,
         "md_start": _md_start,
-        "md_range": _md_range,
-        "md_type": _md_type,
-        "md_unit": _md_unit,
         "md_reference": lambda v: VR_STRIDE * variable_numbers()[v.name],
         **modelica.FILTERS,
     }

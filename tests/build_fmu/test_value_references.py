@@ -29,8 +29,8 @@ def test_a_few_of_them_as_importers_know_them() -> None:
     found = {s.name: s.value_reference for s in scalars(6)}
     assert found["leg[1].grf"] == 0 and found["leg[6].grf"] == 5 and found["MI"] == 100
     assert found["robot_weight"] == 500
-    assert [found[f"leg[{k}].theta_hip"] for k in (1, 4)] == [3900, 3903]
-    assert found["phi[2]"] == 5001
+    assert [found[f"leg[{k}].theta_hip"] for k in range(1, 7)] == list(range(3900, 3906))
+    assert [found[f"phi[{k}]"] for k in range(1, 6)] == list(range(5000, 5005))
 
 
 def test_numbers_are_counted_on_and_each_variable_has_one() -> None:
