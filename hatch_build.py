@@ -35,14 +35,17 @@ class ReadyBinaries(BuildHookInterface[Any]):
         from build_fmu.options import BuildOptions
         from build_fmu.platforms import PLATFORMS
 
+        def told(platform: str) -> None:
+            self.app.display_info(f"compiling for {platform}")
+
         platforms = _platforms(os.environ.get("APNC_WHEEL_PLATFORMS", "host"))
         built = []
         for legs in READY_LEGS if platforms else ():
-            path = cached_fmu(BuildOptions(legs=legs, platforms=platforms), self.app.display_info)
+            path = cached_fmu(BuildOptions(legs=legs, platforms=platforms), told)
             name = path.name if path.parent == READY else f"{path.parent.name[:16]}.fmu"
             built.append((path, name))
         for platform in platforms:
-            path = library_path(platform, self.app.display_info)
+            path = library_path(platform, told)
             built.append((path, library_name(PLATFORMS[platform])))
         if version == "editable":
             _put_into_the_tree(READY, built)

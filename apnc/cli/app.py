@@ -10,7 +10,6 @@ from apnc.cli import build, export_robot, gait, import_robot, info, study, syste
 from apnc_core import __version__
 
 app = typer.Typer(
-    add_completion=False,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,  # it would eat the [s] and [m] of the help texts

@@ -7,17 +7,28 @@ import logging
 import os
 import sys
 import tempfile
+import textwrap
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import count as counting
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import typer
 
 if TYPE_CHECKING:
     from rich.status import Status
+
+
+_GAP: Final = 2
+"""Spaces between the columns of a table."""
+
+_INDENT: Final = 4
+"""Spaces before text that is below its row."""
+
+_LEAST_TEXT: Final = 40
+"""Width of the narrowest column that text is wrapped in [characters]."""
 
 
 def writable(path: Path, *, file: bool = False) -> Path:
@@ -128,15 +139,52 @@ def tell_compiling() -> None:
         log.addHandler(Told())
 
 
-def show_table(rows: Iterable[Iterable[str]], *headings: str) -> None:
-    """Print rows as a table."""
+def say_file(label: str, path: Path) -> None:
+    """Print where a file is. In a terminal that knows links, the path opens the file."""
     from rich.console import Console
-    from rich.table import Table
+    from rich.text import Text
 
-    table = Table(*headings, box=None, padding=(0, 2), show_header=bool(headings))
-    for row in rows:
-        table.add_row(*row)
-    Console().print(table, markup=False, highlight=False)
+    link = f"link {path.absolute().as_uri()}"
+    Console().print(Text.assemble(f"{label}: ", (str(path), link)), soft_wrap=True)
+
+
+def show_table(rows: Iterable[Iterable[str]], *headings: str) -> None:
+    """Print rows as a table whose last column is text. In a pipe no line is broken.
+
+    Text too long for its row is wrapped in its column, or is below its row where the column would
+    have less than 40 characters.
+    """
+    from rich.cells import cell_len
+    from rich.console import Console
+    from rich.text import Text
+
+    lines = [*([headings] if headings else []), *map(tuple, rows)]
+    *widths, text = (max(map(cell_len, column)) for column in zip(*lines, strict=True))
+    console = Console()
+    window = console.width if console.is_terminal or "COLUMNS" in os.environ else sys.maxsize
+    begin = sum(widths) + _GAP * len(widths)
+    missing = min(text, _LEAST_TEXT) - (window - begin)
+    usual = sorted(cell_len(row[-2]) for row in lines)[len(lines) // 2]
+    if 0 < missing <= widths[-1] - usual:  # the few longer cells reach into the column of text
+        widths[-1] -= missing
+        begin -= missing
+    for row in lines:
+        gaps = (max(w - cell_len(c), 0) + _GAP for c, w in zip(row, widths, strict=False))
+        line = "".join(cell + " " * gap for cell, gap in zip(row, gaps, strict=False))
+        if cell_len(line + row[-1]) <= window:
+            line += row[-1]
+        elif cell_len(line) == begin and window - begin >= _LEAST_TEXT:
+            line += _wrapped(row[-1], window - begin, begin).lstrip(" ")
+        else:
+            line = f"{line.rstrip()}\n{_wrapped(row[-1], window - _INDENT, _INDENT)}"
+        style = "bold" if row is headings else ""
+        console.print(Text(line.rstrip(), style), soft_wrap=True)
+
+
+def _wrapped(text: str, width: int, indent: int) -> str:
+    """Lines of at most ``width`` characters, each after ``indent`` spaces."""
+    lines = textwrap.wrap(text, width, break_long_words=False, break_on_hyphens=False)
+    return "\n".join(" " * indent + line for line in lines)
 
 
 @contextmanager

@@ -14,7 +14,7 @@ import typer
 from typer import Option
 
 import apnc
-from apnc.cli.console import bar, say, writable
+from apnc.cli.console import bar, say_file, writable
 from apnc.cli.interrupt import STOP, Interrupted
 from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry, Registry
 
@@ -101,7 +101,7 @@ def _run(
         )
     ends = Counter(row["end"] for row in rows)
     counts = "".join(f", {count} {_ENDED.get(end, end)}" for end, count in sorted(ends.items()))
-    say(f"{len(rows)} trials{counts}; report: {output}/report.html")
+    say_file(f"{len(rows)} trials{counts}; report", output / "report.html")
     if STOP.asked:
         raise Interrupted("interrupted; --resume finishes it")
     raise typer.Exit(TRIAL_FAILED if ends["error"] else 0)

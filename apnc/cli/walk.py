@@ -20,6 +20,7 @@ from apnc.cli.console import (
     file_option,
     given,
     say,
+    say_file,
     show_table,
     status,
     writable,
@@ -143,7 +144,7 @@ def walk(
 
         write_atomically(mcap_path, lambda path: write_mcap(record, path))
     show_table(rows(summary))
-    say(f"report: {output}/report.html")
+    say_file("report", output / "report.html")
     why = f": {record.message}" if record.message else ""
     words = f"{record.end} at {record.ended_at:.2f} s{why}; what was recorded is in {output}"
     if record.end is apnc.End.interrupted:
