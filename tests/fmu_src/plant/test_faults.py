@@ -97,11 +97,8 @@ FAULTS = {
         "noise", "sensor.h", "h->readings[robot]++;", "h->readings[robot] += 0;"
     ),
     "corners all on one side": Fault("fall", "fall.h", "(corner >> i) & 1", "corner & 1"),
-    "damping of half the weight in the longest step": Fault(
-        "steps",
-        "step.h",
-        "(2.0 * l->damping + h * l->stiffness)",
-        "(l->damping + h * l->stiffness)",
+    "push on a foot without its moment": Fault(
+        "steps", "step.h", "{force, v_cross(m.tibia, force), 0.0}", "{force, still, 0.0}"
     ),
     "motor as a spring alone": Fault(
         "steps", "step.h", "s_max(servo->damping, servo->stall * servo->per_no_load)", "0.0"
