@@ -29,7 +29,7 @@ FELL_AT_ONCE_S: Final = 2.0
 
 @dataclass(frozen=True)
 class WalkFeatures:
-    """What is measured of one run; ``None`` where a figure is undefined for this run.
+    """What is measured of one run; ``None`` where a measure is undefined for this run.
 
     Field names are the keys of ``summary.json``. Strides and feet count from the touch moment, so
     that the drop to the ground at the start is no stride. Dictionaries are by name of the leg.
@@ -37,7 +37,7 @@ class WalkFeatures:
     Args:
         controller: label of the controller that walked the robot.
         mi: modulatory input MI asked for [1], or its steps ((start [s], MI), ...).
-        seed: of everything random in the run.
+        seed: of the robot's asymmetry and the noise of its sensors.
         end: complete, fell, diverged or interrupted.
         message: what broke down; empty if nothing did.
         duration_s: simulated time until the end [s].
@@ -122,7 +122,7 @@ class WalkFeatures:
     version: str
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain dictionary in which every figure is finite or ``None``."""
+        """Plain dictionary in which every measure is finite or ``None``."""
         return asdict(self)
 
     def to_json(self) -> str:

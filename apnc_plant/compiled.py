@@ -62,7 +62,7 @@ class Plant:
                 0 to 2^64 - 1.
             options: start and integration.
             ground: the ground; level and smooth if omitted.
-            conditions: payload, damage and sensor faults; none if omitted.
+            conditions: payload, damage and broken sensors; none if omitted.
             kind: ``legs`` computes the legs side by side, which is faster; ``scalar`` one by one.
 
         Raises:

@@ -1,4 +1,4 @@
-"""Conditions of a robot that a study sets: payload, damage and sensor faults."""
+"""Conditions of a robot that a study sets: payload, damage and broken sensors."""
 
 from __future__ import annotations
 

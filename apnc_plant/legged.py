@@ -112,7 +112,7 @@ class LeggedPlant:
                 0 to 2^64 - 1.
             options: start and integration.
             ground: the ground; level and smooth if omitted.
-            conditions: payload, damage and sensor faults; none if omitted.
+            conditions: payload, damage and broken sensors; none if omitted.
 
         Raises:
             ValueError: conditions name a leg the robot does not have, the seed or step is not

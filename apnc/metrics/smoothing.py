@@ -44,7 +44,7 @@ def _weights(length: int) -> Array:
     first half of the first parabola and the last half of the last. The weights are computed once
     for each length, since a fit in every call takes longer than the filter.
 
-    The steps are those of ``scipy.signal.savgol_filter`` with the same rounding, so that figures
+    The steps are those of ``scipy.signal.savgol_filter`` with the same rounding, so that measures
     keep their bits. SciPy's module takes longer to import than a walk takes.
     """
     sample, half = np.arange(length, dtype=np.float64), length // 2

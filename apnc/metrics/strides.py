@@ -1,4 +1,4 @@
-"""Stance and strides, and the figures of a stride: duty factor, coordination, lift and slip.
+"""Stance and strides, and the measures of a stride: duty factor, coordination, lift and slip.
 
 A stride of a leg is a cycle of its oscillator, from mid-swing to mid-swing. A foot that touches the
 ground twice in a cycle still makes one stride, and its share of stance is that of both contacts.

@@ -53,7 +53,7 @@ class Claim(NamedTuple):
     Args:
         section: section or figure of the paper.
         text: the claim. ``{gait}`` stands for the gait that is expected of the robot.
-        rule: function from results to figures and verdict.
+        rule: function from results to what was measured and the verdict.
         controllers: labels of the controllers that the rule needs.
         seeds: smallest number of seeds of each for a verdict.
     """
@@ -191,7 +191,7 @@ def ranks(
 
     Args:
         results: of the controllers.
-        column: the figure.
+        column: the measure.
         axis: of the grid.
         sign: 1 or -1.
         labels: of the controllers, each checked alone.

@@ -1,10 +1,12 @@
-"""Plots of results over an axis of the grid: boxes or points, and shares of success."""
+"""Plots of results over an axis of the grid: points, quartiles, and shares of success."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final, NamedTuple
+
+import numpy as np
 
 from apnc.controllers import named_controller
 from apnc.report import theme
@@ -42,8 +44,11 @@ LOOKS: Final[Mapping[str, Look]] = {
 }
 """By label of the controller."""
 
-MIN_BOX: Final = 5
-"""Smallest number of values for a box. Fewer are drawn as points."""
+MIN_QUARTILES: Final = 5
+"""Smallest number of values whose median and quartiles are drawn. Fewer are large points."""
+
+NAMED: Final = 12
+"""Most large points of a figure whose names are written beside them; more show them on hover."""
 
 CRITERIA: Final = {
     STRICT: "strict criterion: within 0.6 rad of the gait, to the end",
@@ -53,7 +58,7 @@ COLOURS: Final = (theme.BLUE, theme.ORANGE, theme.GREEN, theme.PURPLE, theme.VER
 
 
 def counted(results: Sequence[Result], column: str, controller: str) -> str:
-    """Name of a controller and the number of its runs that have a figure."""
+    """Name of a controller and the number of its runs that have a measure."""
     runs = matching(results, controller=controller)
     return (
         f"{named_controller(controller).name}, n = {of_runs(len(values(runs, column)), len(runs))}"
@@ -61,21 +66,64 @@ def counted(results: Sequence[Result], column: str, controller: str) -> str:
 
 
 def spread(
-    points: Sequence[tuple[str, float]], name: str, colour: str, symbol: str = "circle"
+    points: Sequence[tuple[str, float]],
+    name: str,
+    colour: str,
+    symbol: str = "circle",
+    names: Sequence[str] = (),
 ) -> list[Trace]:
-    """Traces of numbers by category: a box for ``MIN_BOX`` numbers and more, otherwise points."""
-    count = {category: sum(c == category for c, _ in points) for category, _ in points}
-    box = {"type": "box", "marker": {"color": colour, "size": 4}, "line": {"width": 1.2}}
-    mark = {"color": colour, "size": 7, "symbol": symbol}
-    single = {"type": "scatter", "mode": "markers", "marker": mark}
+    """Traces of numbers by category: each as a point, and the quartiles where there are enough.
+
+    Args:
+        points: category and number.
+        name: in the legend.
+        colour: of the traces.
+        symbol: of the points where there are fewer than ``MIN_QUARTILES``.
+        names: of the points, shown beside them or on hover.
+    """
+    numbers: dict[str, list[float]] = {}
+    for category, value in points:
+        numbers.setdefault(category, []).append(value)
+    many = {c: values for c, values in numbers.items() if len(values) >= MIN_QUARTILES}
+    labels = names or [""] * len(points)
+    group = {"type": "scatter", "mode": "markers", "name": name}
+    group |= {"offsetgroup": name, "legendgroup": name}
     traces: list[Trace] = []
-    for look, boxed in ((box, True), (single, False)):
-        part = [(c, value) for c, value in points if (count[c] >= MIN_BOX) is boxed]
+    for enough, look in ((True, {"size": 4, "opacity": 0.45}), (False, {"size": 8})):
+        part = [
+            (c, value, label)
+            for (c, value), label in zip(points, labels, strict=True)
+            if (c in many) is enough
+        ]
         if part:
-            place = {"x": [c for c, _ in part], "y": [value for _, value in part]}
-            group = {"name": name, "offsetgroup": name, "legendgroup": name}
-            traces.append(look | place | group | {"showlegend": not traces})
+            x, y, text = (list(column) for column in zip(*part, strict=True))
+            marker = {"color": colour, "symbol": "circle" if enough else symbol} | look
+            place = {"x": x, "y": y, "marker": marker, "showlegend": not traces}
+            told = {"text": text, "hovertemplate": "%{y:.4g}, %{text}"} if names else {}
+            traces.append(group | place | told)
+        if part and enough:
+            traces.append(group | {"showlegend": False} | _quartiles(many, colour))
     return traces
+
+
+def _quartiles(numbers: Mapping[str, Sequence[float]], colour: str) -> Trace:
+    """A mark at the median of every category, on a bar from the first to the third quartile."""
+    low, middle, high = np.array([np.percentile(v, [25, 50, 75]) for v in numbers.values()]).T
+    bar = {"type": "data", "symmetric": False, "color": colour, "thickness": 7, "width": 0}
+    reach = {"array": (high - middle).tolist(), "arrayminus": (middle - low).tolist()}
+    line = {"color": theme.INK, "width": 2.5}
+    mark = {"symbol": "line-ew", "size": 9, "color": theme.INK, "line": line}
+    place = {"x": list(numbers), "y": middle.tolist(), "marker": mark, "error_y": bar | reach}
+    return place | {"hovertemplate": "median %{y:.4g}"}
+
+
+def _named(traces: Sequence[Trace]) -> None:
+    """Write names beside the large points if these are few."""
+    large = [trace for trace in traces if trace["marker"]["size"] == 8 and "text" in trace]
+    if sum(len(trace["y"]) for trace in large) <= NAMED:
+        for trace in large:
+            beside = {"mode": "markers+text", "textposition": "middle right"}
+            trace |= beside | {"textfont": {"size": 10}}
 
 
 def over_axis(
@@ -86,19 +134,18 @@ def over_axis(
     Args:
         results: of at least one trial.
         axis: name of the axis, and its title.
-        column: the figure of the results.
+        column: the measure of the results.
         label: title of the vertical axis.
         note: text below the title.
     """
     traces = []
     for controller in controllers_in(results):
-        points = [
-            (str(result[axis[0]]), float(result[column]))
-            for result in matching(results, controller=controller)
-            if is_number(result.get(column))
-        ]
-        look = LOOKS[controller]
-        traces += spread(points, counted(results, column, controller), look.colour, look.symbol)
+        known = [r for r in matching(results, controller=controller) if is_number(r.get(column))]
+        points = [(str(result[axis[0]]), float(result[column])) for result in known]
+        seeds = [f"seed {result['seed']}" for result in known]
+        name, look = counted(results, column, controller), LOOKS[controller]
+        traces += spread(points, name, look.colour, look.symbol, seeds)
+    _named(traces)
     title = label.split(" [", maxsplit=1)[0].capitalize()
     cells = [str(cell) for cell in cells_in(results, axis[0])]
     return _figure(f"{results[0]['study']}-{column}", title, note, traces, cells, axis[1], label)
@@ -109,9 +156,15 @@ def _figure(
 ) -> Figure:
     layout = theme.layout(
         320,
-        xaxis=theme.axis(x, type="category", categoryorder="array", categoryarray=cells),
+        # the whole axis, with the cells that have no number
+        xaxis=theme.axis(
+            x,
+            type="category",
+            categoryorder="array",
+            categoryarray=cells,
+            range=[-0.5, len(cells) - 0.5],
+        ),
         yaxis=theme.axis(y),
-        boxmode="group",
         scattermode="group",
         hovermode="closest",
     )
@@ -173,5 +226,5 @@ def side_by_side(
         for trace in spread([(name, value) for value in numbers], name, colours[at % len(colours)])
     ]
     figure = _figure(key, title, note, traces, list(groups), "", unit)
-    figure.layout.update(boxmode="overlay", scattermode="overlay")
+    figure.layout["scattermode"] = "overlay"
     return figure

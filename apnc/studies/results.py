@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 Result = dict[str, Any]
-"""What a study keeps of one trial: its cell of the grid and its figures, by name."""
+"""What a study keeps of one trial: its cell of the grid and its measures, by name."""
 
 
 class TrialId(NamedTuple):

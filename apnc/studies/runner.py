@@ -201,7 +201,7 @@ def _begin(trial: Trial) -> Result:
 
 
 def measured(study: Entry, record: Record) -> Result:
-    """The result of a record: its summary, the figures of the study, its end and its error."""
+    """The result of a record: its summary, the measures of the study, its end and its error."""
     found = walk_features(record).to_dict()
     ended = {"ended_at_s": found.pop("duration_s"), "end": found.pop("end")}
     phases = {f"{PHASE}{k}": phi for k, phi in enumerate(found.pop("phi_final"), start=2)}

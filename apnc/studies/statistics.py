@@ -1,4 +1,4 @@
-"""Confidence intervals and tests for the figures of trials."""
+"""Confidence intervals and tests for the measures of trials."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def rate(outcomes: Sequence[bool]) -> Rate:
 
 
 def of_runs(size: int, runs: int) -> str:
-    """Number of runs that have a figure, with "of ..." if not all have it."""
+    """Number of runs that have a measure, with "of ..." if not all have it."""
     return str(size) if size == runs else f"{size} of {runs}"
 
 

@@ -1,4 +1,4 @@
-"""A study: its grid of experiments, the figures it takes of a record, its claims and pictures."""
+"""A study: its grid of experiments, the measures it takes of a record, its claims and figures."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class Study:
         controllers: labels of the controllers to run.
         seeds: number of seeds to run in a cell; 0 skips it. Cells at values that the user chose
             run all seeds.
-        measure: figures of a record that its summary does not have. None stands for undefined.
+        measure: measures of a record that its summary does not have. None stands for undefined.
         claims: claims of the paper, or aims, that the results are held against.
         figures: function that draws the results. There is at least one result.
         scenes: function that runs a robot once or twice and draws these runs over time. It is

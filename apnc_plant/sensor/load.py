@@ -49,7 +49,7 @@ class LoadSensor:
         self._reading_in_c = ffi.from_buffer("double[]", self._reading)
 
     def disturb(self, conditions: Conditions) -> None:
-        """Set the sensor faults of ``conditions`` from now on."""
+        """Set what is wrong with the sensors by ``conditions`` from now on."""
         _, lib = library()
         numbers = conditions_numbers(conditions, self._legs, self._weight)
         lib.plant_sensor_disturb(self._cells, numbers.at)

@@ -97,16 +97,16 @@ def quickly(limit: float) -> Rule:
 
 
 def worst(column: str, unit: str, digits: int, scale: float, fits: tuple[float, float]) -> Rule:
-    """Rule: the median of a figure of the worst foot is inside its limits at every MI.
+    """Rule: the median of a measure of the worst foot is inside its limits at every MI.
 
     Partly if it is at more than half of them. The median is outside if half of the runs or more
-    lack the figure.
+    lack the measure.
 
     Args:
-        column: the figure.
+        column: the measure.
         unit: unit in the text of the judgement.
         digits: digits after the point in that text.
-        scale: factor on the figure in that text.
+        scale: factor on the measure in that text.
         fits: smallest and largest allowed median.
     """
 

@@ -92,7 +92,7 @@ Figures = Mapping[str, float]
 
 
 class Task(NamedTuple):
-    """A run of a candidate, and the function that takes figures of its record."""
+    """A run of a candidate, and the function that takes measures of its record."""
 
     experiment: Experiment
     judge: Callable[[Record], Figures]
@@ -142,7 +142,7 @@ def costs_of(
 
 
 def costs(found: Figures, n_legs: int) -> tuple[float, ...]:
-    """Costs in the order of ``names``, of the figures of all runs. 0 for runs that are not made."""
+    """Costs in the order of ``names``, of measures of all runs; 0 for runs that are not made."""
     own = dict(found)
     if (fast := own.get(_speed(FASTEST))) is not None:
         own["ratio"] = 1.5 * ratio_cost(own[_speed(SCHEDULE_MI)], fast)

@@ -113,7 +113,7 @@ def measured(walks: Sequence[Result], seeds: int) -> dict[str, float]:
     """Measures of a candidate.
 
     Args:
-        walks: figures of its walks, in the order of :func:`walks_of`.
+        walks: measures of its walks, in the order of :func:`walks_of`.
         seeds: number of seeds at every MI.
     """
     results = {mi: walks[n * seeds : (n + 1) * seeds] for n, mi in enumerate(MI_VALUES)}

@@ -33,7 +33,7 @@ AROUND: Final = 2.0
 
 
 def measure(record: Record) -> Result:
-    """The figures of ``judge``, and whether each state went as the paper says.
+    """The measures of ``judge``, and whether each state went as the paper says.
 
     In a run that is not complete no state went as the paper says.
     """

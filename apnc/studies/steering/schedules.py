@@ -16,7 +16,7 @@ TURNS: Final[Steps[float]] = ((0.0, 0.0), (20.0, -1.0), (35.0, 1.0), (50.0, 0.0)
 """Start [s] and steering of every interval of the schedule of Fig. 14. Positive is to the left."""
 
 SPEED, YAW_RATE = "speed_section", "yaw_rate_section"
-"""Start of the names of the figures of an interval. Its number follows, from 1."""
+"""Start of the names of the measures of an interval. Its number follows, from 1."""
 
 SLOPES: Final = {f"slopes x {factor:g}": factor for factor in (0.6, 0.8, 1.0, 1.2, 1.4)}
 """Factor on both slopes of the motor neurons in straight walks, by name of the walk."""
