@@ -128,8 +128,8 @@ class Experiment:
             or ``paper`` (as printed).
         settings: parameters that differ from those of the preset and the controller, by name.
         ground: the ground.
-        conditions: payload, damage and broken sensors: a name of the paper or ``Conditions``; one value or
-            steps.
+        conditions: payload, damage and broken sensors: a name of the paper or ``Conditions``; one
+            value or steps.
         turn: steering [1], positive turns left; one value or steps.
         reset: whether the controller is held in its start state; one value or steps.
         rate: update rate of the controller [Hz]; 60 or the FMU's own if omitted.
