@@ -8,8 +8,8 @@ import random
 from typing import Any
 
 import pytest
+from fmu_slave import SCALARS
 from raw_fmu import ERROR, OK, PROTOTYPES, TS, WARNING, Instance, Library, fmu_in
-from slave import SCALARS
 
 from apnc_core.schema import Causality, Type
 

@@ -6,9 +6,9 @@ import ctypes
 from typing import Any
 
 import pytest
+from fmu_slave import SCALARS
 from raw_fmu import DISCARD, ERROR, OK, PROTOTYPES, TS, Instance, Library, fmu_in
 from raw_walk import LOADS, REAL_OUTPUTS
-from slave import SCALARS
 
 from apnc_core.interface import Parameters
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
-from slave import TS, FMU2Probe, slave
+from fmu_slave import TS, FMU2Probe, slave
 
 from apnc_core.interface import Parameters
 from apnc_core.schema import Causality, Type, Variable

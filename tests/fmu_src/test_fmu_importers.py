@@ -15,8 +15,8 @@ import fmpy
 import numpy as np
 import pytest
 from fmpy.util import create_plotly_figure
+from fmu_slave import SCALARS, slave
 from lxml import etree
-from slave import SCALARS, slave
 
 from apnc_core.enumerations import Method
 from apnc_core.schema import Causality, Type

@@ -8,8 +8,8 @@ import threading
 
 import numpy as np
 import pytest
+from fmu_slave import SCALARS
 from raw_fmu import OK, TS, Instance, Library, Memory
-from slave import SCALARS
 
 from apnc_core.enumerations import KappaRule, Method, PhaseMeasure
 from apnc_core.schema import Causality, Type

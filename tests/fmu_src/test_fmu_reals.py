@@ -10,9 +10,9 @@ from pathlib import Path
 import fmpy
 import pytest
 from fmpy.validation import validate_fmu
+from fmu_slave import SCALARS
 from raw_fmu import ERROR, OK, TS, Instance, Library, fmu_in
 from raw_walk import LOADS
-from slave import SCALARS
 
 from apnc.system.plant_fmu import PlantBuild, plant_fmu
 from apnc_core.schema import Type

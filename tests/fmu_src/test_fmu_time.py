@@ -6,9 +6,9 @@ import ctypes
 import math
 
 import pytest
+from fmu_slave import SCALARS
 from raw_fmu import ERROR, OK, TS, Instance, Library, fmu_in
 from raw_walk import ticks_after, walk
-from slave import SCALARS
 
 
 @pytest.mark.parametrize("seconds", [3600])

@@ -20,8 +20,8 @@ from binaries import (
     slice_of,
     standard_functions,
 )
+from fmu_slave import TS, slave
 from native_driver import OUTPUTS, drive, drive3, load
-from slave import TS, slave
 
 from apnc_core.enumerations import KappaRule, Method
 from build_fmu.build import cached_fmu, fmu_bytes, host_fmu

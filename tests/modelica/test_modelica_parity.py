@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from fmu_slave import TS, slave
 from modelica_runs import LIBRARY, Run, driven, run
-from slave import TS, slave
 
 from apnc_core.controller import Controller
 from apnc_core.enumerations import CouplingSign, ForwardModel, KappaRule, Method, PhaseMeasure

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from fmu_slave import SCALARS
 from raw_fmu import OK, TS, Instance
-from slave import SCALARS
 
 from apnc_core.schema import Causality, Type
 

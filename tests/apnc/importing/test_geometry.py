@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("mujoco")
 
 import mujoco
-from dog import FEMUR, FOOT_AHEAD, HIP_OUT, KNEE_OUT, MOUNT, NAMES, RADIUS, SHANK, Dog
+from dog_urdf import FEMUR, FOOT_AHEAD, HIP_OUT, KNEE_OUT, MOUNT, NAMES, RADIUS, SHANK, Dog
 
 from apnc.importing import ImportedRobot, import_robot
 from apnc.importing.mjcf import read_mjcf

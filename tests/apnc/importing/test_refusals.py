@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from dog import Dog, fixed, hinge, link
+from dog_urdf import Dog, fixed, hinge, link
 
 from apnc.importing import ModelFileError, import_robot
 from apnc.importing import xml_file as reader

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from dog import Dog
+from dog_urdf import Dog
 
 import apnc
 from apnc.cli import main as command_line

@@ -20,7 +20,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from lxml import etree, html
 from plant_probe import LOADS, POSITION, TS, FMU2Plant, plant
-from stiff import stiff_robot
+from stiff_robot import stiff_robot
 
 from apnc import Experiment, simulate
 from apnc.loop.fmu_controller import FmuController
