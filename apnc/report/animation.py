@@ -7,9 +7,9 @@ from typing import Any, Final
 import numpy as np
 
 from apnc import metrics
-from apnc.report.encoding import packed
+from apnc.report.encoding import Signal, packed
 from apnc.report.panels import Run
-from apnc.report.skeleton import in_ground, leg_chains, trunk_corners
+from apnc.report.skeleton import in_ground, in_trunk, leg_chains, trunk_corners
 from apnc_core.types import Array
 from apnc_plant.ground import Ground
 
@@ -17,7 +17,7 @@ REACH: Final = 4.5
 """How far the ground is drawn around the path [diagonals of the robot seen from above]."""
 
 AREA: Final = 60.0
-"""Largest area of ground that is drawn [m²], about 2 MB of page.
+"""Largest area of ground that is drawn [m²], about 1 MB of page.
 
 On a longer path it lies around the end.
 """
@@ -27,31 +27,35 @@ LANDMARK: Final = 0.5
 
 
 def animation_data(run: Run) -> dict[str, Any]:
-    """Everything the animation needs, in the world frame; arrays are in base64.
+    """Everything the animation needs; arrays are read by ``apnc.array`` of the page.
 
-    Some arrays have an entry for each shown sample, in 32-bit floats: ``position``, ``rpy``,
-    ``focus`` (what the camera looks at) and ``track`` (the trunk, projected on the ground) of shape
-    (3,), ``corners`` of shape (8, 3), ``chains`` of shape (n, 4, 3) and ``force`` of shape (n, 3).
-    ``stance`` has n bytes for each. ``ground`` and ``landmarks`` are points of lines, with NaN
-    between two lines.
+    Some arrays have an entry for each shown sample. ``position``, ``rpy`` and ``focus`` (what the
+    camera looks at) have the shape (3,), in the world frame. ``chains`` has the shape (n, 3, 3):
+    second hip joint, knee and foot of every leg in the frame of the trunk, in which their range is
+    small. ``force`` has the shape (n, 3), and ``stance`` n bytes. ``hips`` (n, 3) and ``corners``
+    (8, 3) stand still in the frame of the trunk. ``ground`` and ``landmarks`` are points of lines
+    in the world frame, with NaN between two lines.
     """
     record, at, plant = run.record, run.samples.at, run.shown
     ground, opens = record.experiment.ground, run.samples.opens_at
     track = in_ground(ground, plant["position"]) * [1.0, 1.0, 0.0]
-    corners, chains = trunk_corners(record.robot, plant), leg_chains(record.robot, plant)
+    corners = in_trunk(plant, trunk_corners(record.robot, plant))
+    chains = in_trunk(plant, leg_chains(record.robot, plant))
     outline = np.concatenate([corners[0], chains[0, :, -1]])
     reach = REACH * float(np.linalg.norm(np.ptp(outline, axis=0)[:2]))
     lines = _lines(ground, track, reach)
     arrays = {
-        "position": plant["position"],
-        "rpy": plant["rpy"],
-        "focus": metrics.smooth(record.signals["position"])[at],
-        "track": track @ ground.rotation().T,
-        "corners": corners,
-        "chains": chains,
+        "chains": chains[:, :, 1:],
         "force": plant["foot_force"],
         "ground": _joined(ground, [points for points in lines if not _is_landmark(points)]),
         "landmarks": _joined(ground, [points for points in lines if _is_landmark(points)]),
+    }
+    exact = {
+        "position": plant["position"],
+        "rpy": plant["rpy"],
+        "focus": metrics.smooth(record.signals["position"])[at],
+        "hips": chains[0, :, 0],
+        "corners": corners[0],
     }
     return {
         "legs": list(record.legs),
@@ -63,7 +67,8 @@ def animation_data(run: Run) -> dict[str, Any]:
         "radius": record.robot.contact.foot_radius,
         "normal": ground.rotation()[:, 2].tolist(),
         "stance": packed(run.standing[at], "u1"),
-        "arrays": {name: packed(values, "<f4") for name, values in arrays.items()},
+        "arrays": {name: Signal(values) for name, values in arrays.items()}
+        | {name: Signal(values, exact=True) for name, values in exact.items()},
     }
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from apnc import metrics
 from apnc.report import theme
-from apnc.report.encoding import float32
+from apnc.report.encoding import Signal
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import Run, line, stacked
 from apnc.report.skeleton import clearance, in_ground
@@ -41,7 +41,7 @@ def gait(run: Run) -> Figure:
     return _over_time(
         "gait",
         "Gait diagram",
-        f"Black: the foot stands. Legs that are in phase in the {target} stand together.",
+        f"Bars: the foot stands. Legs that are in phase in the {target} stand together.",
         [*(_bars(run, row) for row in range(n)), _second_touches(run)],
         theme.axis("leg", fixedrange=True, showgrid=False, **rows),
         height=90 + 32 * n,
@@ -101,7 +101,7 @@ def _speed(run: Run) -> Figure:
 def _path(run: Run) -> Figure:
     x, y = run.shown["position"][:, :2].T
     traces = [
-        line(y, "trunk", theme.BLUE) | {"x": float32(x)},
+        line(y, "trunk", theme.BLUE) | {"x": Signal(x)},
         _points(x[:1], y[:1], "start", "circle-open", theme.GREEN),
         _points(x[-1:], y[-1:], "end", "circle", theme.VERMILLION),
     ]
@@ -211,7 +211,7 @@ def _bars(run: Run, row: int) -> Trace:
     x = np.insert(ends, np.arange(2, len(ends) + 1, 2), np.nan)
     bars = line(np.full(len(x), float(row)), record.legs[row], theme.BLACK, width=20)
     hover = f"{record.legs[row]}, %{{x:.2f}} s<extra></extra>"
-    return bars | {"x": float32(x), "showlegend": False, "hovertemplate": hover}
+    return bars | {"x": Signal(x, exact=True), "showlegend": False, "hovertemplate": hover}
 
 
 def _second_touches(run: Run) -> Trace:
@@ -244,5 +244,5 @@ def _uncut(phase: Array) -> Array:
 
 def _points(x: Array, y: Array, name: str, symbol: str, colour: str, size: int = 12) -> Trace:
     style = {"symbol": symbol, "size": size, "color": colour, "line": {"width": 2}}
-    at = {"x": float32(x), "y": float32(y)}
+    at = {"x": Signal(x), "y": Signal(y)}
     return {"type": "scatter", "mode": "markers", "name": name, "marker": style} | at

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from pathlib import Path
+from typing import Any, Final
 
 import jinja2
-from plotly.offline import get_plotlyjs
 
 from apnc.report.encoding import script_json
 from apnc.report.figure import Figure
+from apnc.report.theme import DARK
+
+PLOTLY: Final = Path(__file__).parent / "plotly_basic" / "plotly-basic.min.js"
+"""The basic bundle of plotly.js; its README tells where it is from."""
 
 
 def page(
@@ -26,9 +30,9 @@ def page(
     Args:
         template: name of a template that extends ``base.html.j2`` (blocks title, style, header,
             main) and includes ``figure.html.j2`` for each figure.
-        figures: of the page. A page with a figure contains plotly.js, about 5 MB.
+        figures: of the page. A page with a figure contains plotly.js, about 1.2 MB.
         package: package with the template in its folder ``templates``.
-        scripts: names of further templates that run as scripts after the figures are drawn.
+        scripts: names of further templates that run as scripts, before the figures are drawn.
         data: what the scripts read as ``apnc.data``; ``time`` has the times of the figures.
         context: names in the template.
     """
@@ -45,12 +49,14 @@ def page(
         assert environment.loader is not None
         return environment.loader.get_source(environment, name)[0]
 
-    content = {**(data or {}), "figures": [figure.to_dict() for figure in figures]}
+    drawn = {"figures": [figure.to_dict() for figure in figures], "dark": DARK}
     return environment.get_template(template).render(
         figures=figures,
         css=source("style.css"),
-        scripts=[source(name) for name in ("plots.js", *scripts)] if figures else [],
-        plotly=get_plotlyjs() if figures else "",
-        data=script_json(content),
+        core=source("core.js"),
+        scripts=[source(name) for name in scripts],
+        plotly=PLOTLY.read_text(encoding="utf-8") if figures else "",
+        plots=source("plots.js"),
+        data=script_json({**(data or {}), **drawn}),
         **context,
     )

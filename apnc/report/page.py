@@ -10,7 +10,7 @@ from apnc.features import WalkFeatures
 from apnc.loop.provenance import what_was_run
 from apnc.loop.record import End, Record
 from apnc.report.animation import animation_data
-from apnc.report.encoding import packed
+from apnc.report.encoding import Signal
 from apnc.report.figures import all_figures
 from apnc.report.html import page
 from apnc.report.panels import Run
@@ -26,8 +26,8 @@ BEYOND: Final = 1e4
 def render(record: Record, summary: WalkFeatures) -> str:
     """HTML text of the report of a run, however the run ended.
 
-    Pitfall: it contains plotly.js (about 5 MB) and the part of the record that it shows. The whole
-    record is in ``record.csv``.
+    Pitfall: it contains plotly.js (about 1.2 MB) and the part of the record that it shows, most of
+    it in 16 bits. The whole record is in ``record.csv``.
     """
     shown = drawable(record)
     run = Run(shown, summary) if len(shown) else None
@@ -61,7 +61,7 @@ def drawable(record: Record) -> Record:
 def _data(run: Run) -> dict[str, Any]:
     time, opens = run.record.time, run.samples.opens_at
     return {
-        "time": packed(time[run.samples.at], "<f4"),
+        "time": Signal(time[run.samples.at], exact=True),
         "opensAt": None if opens is None else float(time[opens]),
         "animation": animation_data(run),
     }

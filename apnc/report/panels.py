@@ -14,7 +14,7 @@ from apnc import metrics
 from apnc.features import WalkFeatures
 from apnc.loop.record import Record
 from apnc.report import theme
-from apnc.report.encoding import float32
+from apnc.report.encoding import Signal
 from apnc.report.figure import Figure, Trace
 from apnc.report.samples import Samples
 from apnc_core.types import Array
@@ -99,7 +99,7 @@ def line(values: Array, name: str, colour: str, **style: Any) -> Trace:
         style: ``width`` and ``dash`` of the line, and further entries of the trace.
     """
     look = {"color": colour, "width": style.pop("width", 1.6), "dash": style.pop("dash", "solid")}
-    trace = {"type": "scatter", "mode": "lines", "y": float32(values), "name": name, "line": look}
+    trace = {"type": "scatter", "mode": "lines", "y": Signal(values), "name": name, "line": look}
     return trace | style
 
 

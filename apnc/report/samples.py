@@ -10,7 +10,7 @@ import numpy as np
 from apnc_core.types import Array
 
 SHOWN: Final = 15_000
-"""Most samples of a run of which a page shows every one: 250 s at 60 Hz, 16 MB of page."""
+"""Most samples of a run of which a page shows every one: 250 s at 60 Hz, 7 MB of page."""
 
 LATE_S: Final = 10.0
 """Length of the end of a long run that is shown in full, and with which the page opens [s]."""

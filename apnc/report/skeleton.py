@@ -55,6 +55,14 @@ def trunk_rotation(rpy: Array) -> Array:
     return np.moveaxis(np.array(rows), -1, 0)
 
 
+def in_trunk(plant: Plant, points: Array) -> Array:
+    """Points of the world in the frame of the trunk [m], shape (T, ..., 3)."""
+    count = len(plant["position"])
+    away = points.reshape(count, -1, 3) - plant["position"][:, None]
+    seen: Array = (away @ trunk_rotation(plant["rpy"])).reshape(points.shape)
+    return seen
+
+
 def in_ground(ground: Ground, points: Array) -> Array:
     """Points of the world in the frame of the ground [m], shape (..., 3)."""
     return points @ ground.rotation()

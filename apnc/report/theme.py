@@ -17,7 +17,20 @@ BLACK: Final = "#111418"
 INK: Final = "#1f2933"
 GREY: Final = "#8a94a0"
 GRID: Final = "#e7eaee"
+PAPER: Final = "#ffffff"
+EDGE: Final = "#c8ced6"
 BAND: Final = "rgba(31, 41, 51, 0.07)"
+
+DARK: Final = {
+    BLACK: "#eef1f5",
+    INK: "#d5dbe2",
+    GREY: "#8a94a0",
+    GRID: "#2b323b",
+    BAND: "rgba(213, 219, 226, 0.10)",
+    PAPER: "#1a1f26",
+    EDGE: "#4a535e",
+}
+"""What the page draws in place of these colours where a dark page is preferred."""
 
 _BY_NAME: Final = {
     "RF": BLUE,
@@ -44,9 +57,9 @@ def axis(title: str, **more: Any) -> dict[str, Any]:
         "title": {"text": title, "standoff": 8},
         "gridcolor": GRID,
         "zeroline": False,
-        "linecolor": "#c8ced6",
+        "linecolor": EDGE,
         "ticks": "outside",
-        "tickcolor": "#c8ced6",
+        "tickcolor": EDGE,
         "ticklen": 4,
     }
     return common | more
@@ -65,7 +78,7 @@ def layout(height: int, **more: Any) -> dict[str, Any]:
         "height": height,
         "margin": {"l": 74, "r": 46, "t": 34, "b": 44},
         "paper_bgcolor": "rgba(0,0,0,0)",
-        "plot_bgcolor": "#ffffff",
+        "plot_bgcolor": PAPER,
         "font": {"family": "system-ui, 'Segoe UI', Roboto, sans-serif", "size": 12, "color": INK},
         "hovermode": "x unified",
         "legend": {
@@ -76,7 +89,7 @@ def layout(height: int, **more: Any) -> dict[str, Any]:
             "yanchor": "bottom",
             "bgcolor": "rgba(255,255,255,0)",
         },
-        "hoverlabel": {"font": {"size": 12}},
+        "hoverlabel": {"font": {"size": 12, "color": INK}, "bgcolor": PAPER, "bordercolor": EDGE},
         "modebar": {"bgcolor": "rgba(0,0,0,0)", "color": "#b3bbc5", "activecolor": BLUE},
     }
     return common | more

@@ -137,7 +137,7 @@ def rows(s: WalkFeatures) -> list[tuple[str, str, str]]:
 
 def phase_text(phase: float | None) -> str:
     """Phase [rad] as a multiple of pi, e.g. 0.98 π."""
-    return DASH if phase is None else f"{phase / math.pi:.2f}{_SPACE}π"
+    return DASH if phase is None else f"{round(phase / math.pi, 2) + 0.0:.2f}{_SPACE}π"
 
 
 def _settings(settings: Any) -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from apnc.report import theme
-from apnc.report.encoding import float32
+from apnc.report.encoding import Signal
 from apnc.report.figure import Figure
 from apnc_core.types import Array
 
@@ -32,7 +32,7 @@ def marked(figure: Figure, time: Array, intervals: Sequence[Interval]) -> Figure
         "shapes": [*layout.get("shapes", ()), *map(_band, intervals[::2])],
         "annotations": [*layout.get("annotations", ()), *map(_label, intervals)],
     }
-    data = [{"x": float32(time)} | trace for trace in figure.data]
+    data = [{"x": Signal(time)} | trace for trace in figure.data]
     return replace(figure, data=data, layout=layout, over_time=False)
 
 

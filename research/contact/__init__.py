@@ -10,7 +10,7 @@ import numpy as np
 from apnc.loop.engines import OWN_ENGINE
 from apnc.loop.experiment import Experiment
 from apnc.report import theme
-from apnc.report.encoding import float32
+from apnc.report.encoding import Signal
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import line
 from apnc.studies.plots import COLOURS
@@ -100,7 +100,7 @@ def scenes(_: Robot) -> list[Figure]:
     for (depth, steps), colour in zip(laws, COLOURS, strict=False):
         time, force = touch_down(trot(depth, steps), steps)
         label = f"{1e3 * TICK / steps:.3g} ms, damping depth {1e3 * depth:g} mm"
-        data.append(line(force, label, colour) | {"x": float32(time)})
+        data.append(line(force, label, colour) | {"x": Signal(time)})
     layout = theme.layout(
         340,
         xaxis=theme.axis("time from touch-down [ms]"),

@@ -10,7 +10,7 @@ import numpy as np
 from apnc.loop.engines import COMPILED, OWN_ENGINE
 from apnc.loop.record import Record
 from apnc.report import theme
-from apnc.report.encoding import float32
+from apnc.report.encoding import Signal
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import line
 from apnc.studies.plots import spread
@@ -60,7 +60,7 @@ def _figure(results: Sequence[Result], column: str, title: str) -> Figure:
     cells = [f"{mi:g}" for mi in cells_in(results, "mi")]
     x = theme.axis("MI [1]", type="category", categoryorder="array", categoryarray=cells)
     layout = theme.layout(
-        320, xaxis=x, yaxis=theme.axis(title), boxmode="group", scattermode="group",
+        320, xaxis=x, yaxis=theme.axis(title), scattermode="group",
         hovermode="closest",
     )  # fmt: skip
     heading = title.split(" [", maxsplit=1)[0].capitalize()
@@ -73,7 +73,7 @@ def replay(engines: Sequence[str]) -> Figure:
     for engine in engines:
         name, colour, _ = STYLES[engine]
         found = np.maximum(distances(engine), LEAST)
-        x = {"x": float32(TICK * np.arange(1, len(found) + 1))}
+        x = {"x": Signal(TICK * np.arange(1, len(found) + 1))}
         data.append(line(found, name, colour) | x)
     layout = theme.layout(
         340,
@@ -98,7 +98,7 @@ def walks(records: Mapping[str, Record]) -> Figure:
         phases = (record.signals["phi"][shown] + 1.0) % (2.0 * np.pi) - 1.0
         phases[1:][np.abs(np.diff(phases, axis=0)) > np.pi] = np.nan  # once round: a gap
         for k in range(phases.shape[1]):
-            group = {"legendgroup": engine, "showlegend": k == 0, "x": float32(record.time[shown])}
+            group = {"legendgroup": engine, "showlegend": k == 0, "x": Signal(record.time[shown])}
             data.append(line(phases[:, k], name, colour, width=1.2) | group)
     some = next(iter(records.values())).experiment
     names = ", ".join(f"φ1{leg}" for leg in range(2, record.n_legs + 1))

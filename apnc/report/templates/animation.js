@@ -16,15 +16,16 @@
   const drawStrip = (t) => {
     const left = 34, span = 3, n = scene.n, [c, width, height] = scene.prepare($("strip"));
     const row = (height - 18) / n, x = (s) => Math.max(left, left + ((s - t + span) / (2 * span)) * (width - left));
+    const [swing, stance] = ["--swing", "--stance"].map(apnc.colour);
     const from = sampleAt(t - span), to = sampleAt(t + span);
     c.font = "600 12px system-ui, sans-serif"; c.textBaseline = "middle"; c.textAlign = "left";
     for (let leg = 0; leg < n; leg++) {
       const bar = (style, a, b) => { c.fillStyle = style; c.fillRect(a, leg * row + 2, b - a, row - 4); };
-      bar("#f1f3f6", left, width);
-      for (let i = from; i < to; i++) if (scene.stance[i * n + leg]) bar("#111418", x(time[i]), x(time[i + 1]) + 1);
+      bar(swing, left, width);
+      for (let i = from; i < to; i++) if (scene.stance[i * n + leg]) bar(stance, x(time[i]), x(time[i + 1]) + 1);
       c.fillStyle = scene.colours[leg]; c.fillText(scene.legs[leg], 4, (leg + 0.5) * row);
     }
-    c.font = "11px system-ui, sans-serif"; c.fillStyle = "#5b6673"; c.textAlign = "center";
+    c.font = "11px system-ui, sans-serif"; c.fillStyle = apnc.colour("--soft"); c.textAlign = "center";
     for (let s = Math.ceil(Math.max(t - span, time[0])); s <= Math.min(t + span, time[last]); s++) {
       if (x(s) > left + 10 && x(s) < width - 12) c.fillText(s + " s", x(s), height - 7);
     }
@@ -83,6 +84,7 @@
     if (step) jump(time[Math.min(last, Math.max(0, sampleAt(now) + step))]);
     event.preventDefault();
   });
+  apnc.redraws.push(show);
   new ResizeObserver(show).observe($("robot"));
 
   apnc.player = { play: () => setPlaying(true), pause: () => setPlaying(false), seek: jump };

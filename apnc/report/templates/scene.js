@@ -3,8 +3,8 @@
 apnc.Scene = class {
   constructor(canvas, source) {
     Object.assign(this, source, { canvas, n: source.legs.length, zoom: 1, stance: apnc.unpack(source.stance, Uint8Array) });
-    for (const [name, text] of Object.entries(source.arrays)) this[name] = apnc.unpack(text, Float32Array);
-    this.above = this.focus[2] - this.track[2];
+    for (const [name, text] of Object.entries(source.arrays)) this[name] = apnc.array(text);
+    this.above = this.focus[2] - this.track(0)[2];
     this.prints = this.footprints();
     this.view("3d");
   }
@@ -25,7 +25,26 @@ apnc.Scene = class {
   }
 
   vector(array, i) { return [array[3 * i], array[3 * i + 1], array[3 * i + 2]]; }
-  point(i, leg, joint) { return this.vector(this.chains, (i * this.n + leg) * 4 + joint); }
+  // Joints 0 to 3 of a leg: first hip joint, second hip joint, knee, foot.
+  point(i, leg, joint) { return this.placed(i, joint ? this.vector(this.chains, (i * this.n + leg) * 3 + joint - 1) : this.vector(this.hips, leg)); }
+  // A point of the trunk in the world, by Rz(yaw) Ry(pitch) Rx(roll).
+  placed(i, [x, y, z]) {
+    const [px, py, pz] = this.vector(this.position, i), [cr, cp, cy, sr, sp, sy] = this.turn(i);
+    const v = cr * y - sr * z, w = sr * y + cr * z, u = cp * x + sp * w;
+    return [px + cy * u - sy * v, py + sy * u + cy * v, pz + cp * w - sp * x];
+  }
+  turn(i) {
+    if (this.turnOf !== i) {
+      const angles = this.vector(this.rpy, i);
+      [this.turnOf, this.turned] = [i, [...angles.map(Math.cos), ...angles.map(Math.sin)]];
+    }
+    return this.turned;
+  }
+  // The trunk, projected on the plane of the ground.
+  track(i) {
+    const p = this.vector(this.position, i), away = p.reduce((sum, v, k) => sum + v * this.normal[k], 0);
+    return p.map((v, k) => v - away * this.normal[k]);
+  }
   sole(i, leg) { return this.point(i, leg, 3).map((v, k) => v - this.radius * this.normal[k]); }
 
   // Parallel projection; the camera looks from (azimuth, elevation) in the world frame.
@@ -46,6 +65,7 @@ apnc.Scene = class {
 
   draw(i) {
     [this.context, this.width, this.height] = this.prepare(this.canvas);
+    [this.ink, this.halo, this.grid, this.strong] = ["--ink", "--canvas", "--grid", "--landmark"].map(apnc.colour);
     this.context.lineCap = this.context.lineJoin = "round";
     this.scale = (2.7 * Math.min(this.height, 0.7 * this.width) / this.reach) * this.zoom;
     this.centre = this.vector(this.focus, i);
@@ -74,8 +94,8 @@ apnc.Scene = class {
     c.save();
     this.path([[-r, -r], [r, -r], [r, r], [-r, r]].map(([dx, dy]) => [x + dx, y + dy, z - this.above - (nx * dx + ny * dy) / nz]));
     c.clip();
-    this.lines(this.ground, "#dde2e8", 1);
-    this.lines(this.landmarks, "#b3bdc8", 1.4);
+    this.lines(this.ground, this.grid, 1);
+    this.lines(this.landmarks, this.strong, 1.4);
     c.restore();
   }
 
@@ -95,7 +115,7 @@ apnc.Scene = class {
 
   past(i) {
     const points = [], c = this.context;
-    for (let k = Math.max(0, i - 900); k <= i; k += 6) points.push(this.vector(this.track, k));
+    for (let k = Math.max(0, i - 900); k <= i; k += 6) points.push(this.track(k));
     this.path(points, "#8a94a0", 1.5, null, [2, 5]);
     for (const print of this.prints) {
       if (print.i > i || i - print.i > 600) continue;
@@ -109,7 +129,7 @@ apnc.Scene = class {
 
   // Corners are numbered 4 y + 2 x + z with 0 for the lower and 1 for the upper end of each edge.
   box(i) {
-    const corners = Array.from({ length: 8 }, (_, k) => this.vector(this.corners, 8 * i + k)), seen = corners.map((p) => this.project(p));
+    const corners = Array.from({ length: 8 }, (_, k) => this.placed(i, this.vector(this.corners, k))), seen = corners.map((p) => this.project(p));
     const faces = [[2, 6, 7, 3, "#a9b6c4"], [4, 0, 1, 5, "#a9b6c4"], [0, 2, 3, 1, "#c0cad5"], [6, 4, 5, 7, "#c0cad5"], [1, 3, 7, 5, "#dde4ec"], [4, 6, 2, 0, "#8f9dac"]];
     for (const face of faces) {
       const [a, b, c] = face.map((at) => seen[at]);
@@ -124,16 +144,16 @@ apnc.Scene = class {
   leg(i, leg) {
     const chain = [0, 1, 2, 3].map((joint) => this.point(i, leg, joint));
     const colour = this.colours[leg], c = this.context, radius = this.radius * this.scale, [x, y] = this.project(chain[3]);
-    this.path(chain, "#ffffff", 9);
+    this.path(chain, this.halo, 9);
     this.path(chain, colour, 6);
     const dot = (point, size, fill) => {
       const [u, v] = this.project(point);
       c.beginPath(); c.arc(u, v, size, 0, 2 * Math.PI);
       c.fillStyle = fill; c.fill(); c.strokeStyle = colour; c.lineWidth = 2; c.stroke();
     };
-    for (const joint of [1, 2]) dot(chain[joint], 4, "#ffffff");
-    dot(chain[3], 0.9 * radius, this.stance[i * this.n + leg] ? colour : "#ffffff");
-    c.fillStyle = "#1f2933"; c.font = "600 11px system-ui, sans-serif"; c.textAlign = "center";
+    for (const joint of [1, 2]) dot(chain[joint], 4, this.halo);
+    dot(chain[3], 0.9 * radius, this.stance[i * this.n + leg] ? colour : this.halo);
+    c.fillStyle = this.ink; c.font = "600 11px system-ui, sans-serif"; c.textAlign = "center";
     c.fillText(this.legs[leg], x, y + radius + 12);
   }
 
@@ -143,7 +163,7 @@ apnc.Scene = class {
     if (Math.hypot(...force) < 0.02 * this.weight) return;
     const [[x0, y0], [x1, y1]] = [base, base.map((v, k) => v + (force[k] / this.weight) * 0.2)].map((p) => this.project(p));
     const length = Math.hypot(x1 - x0, y1 - y0), ux = (x1 - x0) / length, uy = (y1 - y0) / length;
-    this.trace([[x0, y0], [x1, y1]], "#1f2933", 2.2);
-    if (length >= 8) this.trace([[x1 + 5 * ux, y1 + 5 * uy], [x1 - 5 * ux - 4 * uy, y1 - 5 * uy + 4 * ux], [x1 - 5 * ux + 4 * uy, y1 - 5 * uy - 4 * ux]], null, 0, "#1f2933");
+    this.trace([[x0, y0], [x1, y1]], this.ink, 2.2);
+    if (length >= 8) this.trace([[x1 + 5 * ux, y1 + 5 * uy], [x1 - 5 * ux - 4 * uy, y1 - 5 * uy + 4 * ux], [x1 - 5 * ux + 4 * uy, y1 - 5 * uy - 4 * ux]], null, 0, this.ink);
   }
 };

@@ -15,7 +15,7 @@ from apnc.loop.record import Record
 from apnc.loop.schedule import steps_of
 from apnc.loop.simulate import simulate
 from apnc.report import theme
-from apnc.report.encoding import float32
+from apnc.report.encoding import Signal
 from apnc.report.figure import Figure, Trace
 from apnc.report.panels import Run, line, stacked
 from apnc.studies.intervals import Interval, marked
@@ -118,7 +118,7 @@ def path(record: Record) -> Figure:
         inside = slice(*np.searchsorted(record.time, [begin - 1e-9, end + 1e-9]))
         x, y = at[inside].T
         text = f"{name}, {begin:g} to {end:g} s"
-        traces.append(line(y, text, COLOURS[i % len(COLOURS)], width=2.6) | {"x": float32(x)})
+        traces.append(line(y, text, COLOURS[i % len(COLOURS)], width=2.6) | {"x": Signal(x)})
     ends = (("start", "circle-open", at[:1].T), ("end", "circle", at[-1:].T))
     for name, symbol, (x, y) in ends:
         mark = {"size": 11, "color": theme.INK, "symbol": symbol, "line": {"width": 2}}
@@ -153,5 +153,5 @@ def _frequencies(run: Run) -> list[Trace]:
     ):
         middles = (starts[:-1] + starts[1:]) / 2 / record.experiment.rate
         rate = record.experiment.rate / np.diff(starts)
-        traces.append(line(rate, leg, colour, width=1.2) | {"x": float32(middles)})
+        traces.append(line(rate, leg, colour, width=1.2) | {"x": Signal(middles)})
     return traces

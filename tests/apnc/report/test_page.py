@@ -16,6 +16,7 @@ from apnc.features import walk_features
 from apnc.loop.record import End, Record
 from apnc.report.page import drawable, render
 from apnc.report.samples import SHOWN
+from apnc.report.skeleton import leg_chains, trunk_corners
 from apnc_plant.ground import Obstacles
 
 KEYS = {
@@ -88,8 +89,8 @@ def test_page_loads_nothing_from_elsewhere(report: Path) -> None:
     assert css and "url(" not in css[1] and "@import" not in css[1]
 
 
-def test_45_seconds_fit_into_8_megabytes(report: Path) -> None:
-    assert report.stat().st_size < 8e6
+def test_45_seconds_fit_into_two_and_a_half_megabytes(report: Path) -> None:
+    assert report.stat().st_size < 2.5e6
 
 
 # Starts and ends of the axes, and what the clock showed when the probe looked.
@@ -97,6 +98,10 @@ SEEN = """<script>
 const clock = () => parseFloat(document.getElementById("clock")?.textContent);
 window.apncReady = () => typeof apnc === "undefined" || clock() > apnc.window[0];
 window.apncProbe = () => ({
+  far: document.querySelectorAll(".js-plotly-plot").length,
+  ...(typeof apnc === "undefined" ? {} : apnc.drawAll()),
+  drawn: Object.fromEntries([...document.querySelectorAll(".js-plotly-plot")]
+    .map((p) => [p.id, p.querySelectorAll("svg.main-svg").length])),
   clock: clock(),
   starts: typeof apnc === "undefined" ? 0 : apnc.window[0],
   range: [...document.querySelectorAll(".js-plotly-plot")]
@@ -119,8 +124,10 @@ def test_page_draws_and_plays_in_a_browser(name: str, tmp_path: Path) -> None:
     if name in ("no tick", "diverged at once"):
         assert seen["plots"] == {} and seen["robot"] == 0
         return
-    assert set(seen["plots"]) == {f"plot-{key}" for key in KEYS}
-    assert min(seen["plots"].values()) >= 1
+    # Plots far below the first screen wait until they are scrolled to.
+    assert seen["far"] < len(KEYS) / 2
+    assert set(seen["drawn"]) == {f"plot-{key}" for key in KEYS}
+    assert min(seen["drawn"].values()) >= 1
     assert seen["robot"] > 20
     if len(record) > 60:
         assert seen["clock"] > seen["starts"]
@@ -140,6 +147,7 @@ def test_controls_move_the_animation_and_link_the_plots(report: Path, tmp_path: 
       apnc.player.seek(10.0); const first = image();
       apnc.player.seek(10.3); const second = image();
       document.querySelector("[data-view=top]").click(); const third = image();
+      apnc.drawAll();
       document.querySelector("[data-window=first]").click();
       return { moved: first !== second, turned: second !== third,
         clock: document.getElementById("clock").textContent,
@@ -152,6 +160,54 @@ def test_controls_move_the_animation_and_link_the_plots(report: Path, tmp_path: 
     assert seen["clock"].startswith("10.30 /")
     assert seen["cursor"] == len(seen["ranges"]) == len(KEYS) - 1
     assert all(r == [0, 10] for r in seen["ranges"])
+
+
+@needs_browser
+def test_the_first_screen_shows_verdicts_robot_gait_and_controls(
+    report: Path, tmp_path: Path
+) -> None:
+    probe = """<script>window.apncProbe = () => ({
+      bottoms: [".verdict", "#robot", "#strip", "#play"].map((s) =>
+        document.querySelector(s).getBoundingClientRect().bottom),
+      high: innerHeight, wide: document.documentElement.scrollWidth - innerWidth,
+    });</script>"""
+    seen, _ = look(report, tmp_path, probe)
+    assert seen["bottoms"] == sorted(seen["bottoms"])
+    assert seen["bottoms"][0] > 0 and seen["bottoms"][-1] < seen["high"]
+    assert seen["wide"] <= 0
+
+
+@needs_browser
+def test_the_page_places_joints_and_trunk_as_they_were(tmp_path: Path) -> None:
+    record = synthetic_record(5.0, roll_amplitude=0.2, pitch_amplitude=0.1, yaw=0.7)
+    probe = """<script>window.apncProbe = () => {
+      const scene = new apnc.Scene(document.getElementById("robot"), apnc.data.animation);
+      const i = 200, four = [0, 1, 2, 3], eight = [0, 1, 2, 3, 4, 5, 6, 7];
+      const corners = eight.map((k) => scene.placed(i, scene.vector(scene.corners, k)));
+      const legs = four.map((leg) => four.map((joint) => scene.point(i, leg, joint)));
+      return { corners, legs, track: scene.track(i) };
+    };</script>"""
+    seen, _ = look(written(record, tmp_path / "r.html"), tmp_path, probe)
+    at = {name: values[200:201] for name, values in record.signals.items()}
+    assert np.array(seen["legs"]) == pytest.approx(leg_chains(record.robot, at)[0], abs=1e-5)
+    assert np.array(seen["corners"]) == pytest.approx(trunk_corners(record.robot, at)[0], abs=1e-6)
+    assert seen["track"] == pytest.approx([*at["position"][0, :2], 0.0], abs=1e-6)
+
+
+@needs_browser
+def test_a_page_is_printed_light_with_all_plots(report: Path, tmp_path: Path) -> None:
+    probe = """<script>window.apncProbe = () => {
+      const widths = () => [...document.querySelectorAll(".js-plotly-plot")].map(
+        (p) => p._fullLayout.width);
+      window.dispatchEvent(new Event("beforeprint"));
+      const printed = { widths: widths(), open: document.getElementById("run").open };
+      window.dispatchEvent(new Event("afterprint"));
+      return { printed, after: widths(), open: document.getElementById("run").open };
+    };</script>"""
+    seen, log = look(report, tmp_path, probe)
+    assert console_lines(log) == [] and seen["errors"] == []
+    assert seen["printed"] == {"widths": [680] * len(KEYS), "open": True}
+    assert min(seen["after"]) > 1000 and seen["open"] is False
 
 
 @needs_browser

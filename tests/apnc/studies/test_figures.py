@@ -27,27 +27,28 @@ def times(cell: Result) -> Result:
     return {STRICT: time, AUTHORS: 1.0, "path_speed_m_per_s": 0.1 + cell["mi"]}
 
 
-def of_kind(figure: Figure, kind: str, name: str) -> list[dict[str, Any]]:
-    """Traces of a kind by their name, with or without the number of runs behind it."""
-    return [
-        trace
-        for trace in figure.data
-        if trace["type"] == kind and trace["name"].split(", n = ")[0] == name
-    ]
+def points_of(figure: Figure, name: str) -> list[dict[str, Any]]:
+    """Traces of points by their name, with or without the number of runs behind it."""
+    found = [trace for trace in figure.data if trace["name"].split(", n = ")[0] == name]
+    return [trace for trace in found if "error_y" not in trace]
+
+
+def quartiles(traces: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [trace for trace in traces if "error_y" in trace]
 
 
 def test_convergence_shows_times_and_the_share_of_success() -> None:
     strict, authors = convergence(made_up({"mi": (0.08, 0.2)}, times, OLD), AXIS)
-    (apnc,) = of_kind(strict, "box", "APNC")
+    (apnc,) = points_of(strict, "APNC")
     assert apnc["x"] == ["0.08"] * 6 + ["0.2"] * 6 and apnc["y"] == [2.0] * 12
-    (tegotae,) = of_kind(strict, "box", "Tegotae")
+    (tegotae,) = points_of(strict, "Tegotae")
     assert tegotae["x"] == ["0.2"] * 6 and tegotae["y"] == [9.0] * 6
-    (share,) = of_kind(strict, "scatter", "Tegotae: success")
+    (share,) = points_of(strict, "Tegotae: success")
     assert share["x"] == ["0.08", "0.2"] and share["y"] == [0.0, 100.0]
     assert share["yaxis"] == "y2"
-    (share,) = of_kind(strict, "scatter", "phase resetting: success")
+    (share,) = points_of(strict, "phase resetting: success")
     assert share["y"] == pytest.approx([100 / 3, 0.0])
-    (share,) = of_kind(authors, "scatter", "phase resetting: success")
+    (share,) = points_of(authors, "phase resetting: success")
     assert share["y"] == [100.0, 100.0]
     assert strict.key == "mi-convergence_time_s" and "strict" in strict.note
     assert authors.key == "mi-convergence_time_authors_s" and "2.8 rad" in authors.note
@@ -58,21 +59,45 @@ def test_convergence_shows_times_and_the_share_of_success() -> None:
 def test_a_cell_that_was_not_run_has_no_share() -> None:
     results = made_up({"mi": (0.08, 0.2)}, times, OLD)
     part = [r for r in results if r["controller"] != "apnc" or r["mi"] == 0.2]
-    (share,) = of_kind(convergence(part, AXIS)[0], "scatter", "APNC: success")
+    (share,) = points_of(convergence(part, AXIS)[0], "APNC: success")
     assert share["y"] == [None, 100.0]
 
 
 def test_fewer_than_five_values_are_points() -> None:
     results = made_up({"mi": (0.08, 0.2)}, times, OLD, seeds=4)
-    assert not [t for t in convergence(results, AXIS)[0].data if t["type"] == "box"]
-    (points,) = of_kind(convergence(results, AXIS)[0], "scatter", "APNC")
+    assert not quartiles(convergence(results, AXIS)[0].data)
+    (points,) = points_of(convergence(results, AXIS)[0], "APNC")
     assert points["mode"] == "markers" and points["y"] == [2.0] * 8
     mixed = spread([("a", 1.0)] * 5 + [("b", 2.0)] * 4, "n", "#000000")
-    assert [(t["type"], t["x"], t["showlegend"]) for t in mixed] == [
-        ("box", ["a"] * 5, True),
-        ("scatter", ["b"] * 4, False),
+    assert [("error_y" in t, t["x"], t["showlegend"]) for t in mixed] == [
+        (False, ["a"] * 5, True),
+        (True, ["a"], False),
+        (False, ["b"] * 4, False),
     ]
     assert spread([], "n", "#000000") == []
+
+
+def test_quartiles_of_five_and_more_values() -> None:
+    values = [1.0, 2.0, 3.0, 5.0, 9.0]
+    _, mark = spread([("a", value) for value in values], "n", "#000000")
+    assert (mark["x"], mark["y"]) == (["a"], [3.0])
+    assert (mark["error_y"]["array"], mark["error_y"]["arrayminus"]) == ([2.0], [1.0])
+
+
+def test_few_points_carry_the_names_of_their_seeds() -> None:
+    speed, label = "path_speed_m_per_s", "speed [m/s]"
+    few = made_up({"mi": (0.08, 0.2)}, times, OLD, seeds=2)
+    (points,) = points_of(over_axis(few, AXIS, speed, label), "APNC")
+    assert points["mode"] == "markers+text" and points["text"] == ["seed 0", "seed 1"] * 2
+    more = made_up({"mi": (0.08, 0.2)}, times, OLD, seeds=4)
+    (points,) = points_of(over_axis(more, AXIS, speed, label), "APNC")
+    assert points["mode"] == "markers" and "%{text}" in points["hovertemplate"]
+
+
+def test_the_axis_shows_every_cell_even_without_a_number() -> None:
+    figure = convergence(made_up({"mi": (0.08, 0.2)}, times, ("tegotae",)), AXIS)[0]
+    assert figure.layout["xaxis"]["categoryarray"] == ["0.08", "0.2"]
+    assert figure.layout["xaxis"]["range"] == [-0.5, 1.5]
 
 
 def test_every_controller_has_a_look_of_its_own() -> None:
@@ -89,13 +114,13 @@ def test_an_unknown_controller_is_an_error() -> None:
 
 def test_names_tell_how_many_of_the_runs_have_the_figure() -> None:
     strict, _ = convergence(made_up({"mi": (0.08, 0.2)}, times), AXIS)
-    names = {trace["name"] for trace in strict.data if trace["type"] != "scatter"}
+    names = {trace["name"] for trace in quartiles(strict.data)}
     # phase resetting has two values at one MI, which are points
     assert names == {"APNC, n = 12", "Tegotae, n = 6 of 12"}
     assert "phase resetting (best), n = 2 of 12" in {trace["name"] for trace in strict.data}
     assert "Tegotae (best): success" in {trace["name"] for trace in strict.data}
     (share,) = [t for t in strict.data if t["name"] == "Tegotae: success"]
-    (box,) = of_kind(strict, "box", "Tegotae")
+    (box,) = points_of(strict, "Tegotae")
     assert share["legendgroup"] == box["legendgroup"] and share["offsetgroup"] == box["offsetgroup"]
 
 
@@ -103,7 +128,7 @@ def test_over_axis_shows_the_column() -> None:
     figure = over_axis(
         made_up({"mi": (0.08, 0.2)}, times, OLD), AXIS, "path_speed_m_per_s", "speed [m/s]"
     )
-    (apnc,) = of_kind(figure, "box", "APNC")
+    (apnc,) = points_of(figure, "APNC")
     assert sorted(set(apnc["y"])) == pytest.approx([0.18, 0.3])
     assert (figure.key, figure.title) == ("mi-path_speed_m_per_s", "Speed")
     assert figure.layout["yaxis"]["title"]["text"] == "speed [m/s]"
@@ -111,9 +136,10 @@ def test_over_axis_shows_the_column() -> None:
 
 def test_side_by_side_keeps_the_order() -> None:
     figure = side_by_side("k", "T", "n", "speed [m/s]", {"b": [1.0, 2.0], "a": [3.0] * 5})
-    assert [(t["type"], t["x"][0], t["y"]) for t in figure.data] == [
-        ("scatter", "b", [1.0, 2.0]),
-        ("box", "a", [3.0] * 5),
+    assert [(t["x"][0], t["y"]) for t in figure.data] == [
+        ("b", [1.0, 2.0]),
+        ("a", [3.0] * 5),
+        ("a", [3.0]),
     ]
     assert figure.layout["xaxis"]["categoryarray"] == ["b", "a"]
 
@@ -161,7 +187,7 @@ def test_damage_shows_the_speed_of_every_method() -> None:
     assert (figure.key, figure.title) == ("damage-speed", "Speed")
     assert figure.note == "Commands of leg RF held at 0."
     assert figure.layout["yaxis"]["title"]["text"] == "speed [m/s]"
-    assert [(t["name"], t["y"][0]) for t in figure.data] == [
+    assert [(t["name"], t["y"][0]) for t in quartiles(figure.data)] == [
         ("APNC, n = 5 of 6", 0.1),
         ("Tegotae, n = 6", 0.2),
         ("phase resetting, n = 6", 0.3),
@@ -180,7 +206,7 @@ def state_results() -> list[Result]:
 
 def test_states_show_speeds_with_and_without_couplings() -> None:
     (figure,) = states.STUDY.figures(state_results())
-    assert [(t["name"], t["y"][0]) for t in figure.data] == [
+    assert [(t["name"], t["y"][0]) for t in quartiles(figure.data)] == [
         ("S1 with ANC", pytest.approx(0.11)),
         ("S1 without ANC", pytest.approx(0.1)),
         ("S2 with ANC", pytest.approx(0.21)),
@@ -226,12 +252,12 @@ def test_steering_shows_every_interval() -> None:
         "speed [m/s]",
         "yaw rate [rad/s]",
     ]
-    assert [(t["name"], t["y"][0]) for t in speed.data] == [
+    assert [(t["name"], t["y"][0]) for t in quartiles(speed.data)] == [
         ("MI 0.15, interval 1", pytest.approx(0.1)),
         ("MI 0.4, interval 2", pytest.approx(0.2)),
         ("MI 0.15, interval 3", pytest.approx(0.3)),
     ]
-    assert [(t["name"], t["y"][0]) for t in yaw.data] == [
+    assert [(t["name"], t["y"][0]) for t in quartiles(yaw.data)] == [
         ("straight", pytest.approx(0.1)),
         ("right", pytest.approx(0.2)),
         ("left", pytest.approx(0.3)),

@@ -127,7 +127,8 @@ def test_scenes_are_drawn_when_all_is_there(
 @needs_browser
 def test_a_report_draws_in_a_browser(tmp_path: Path, grid: list[Trial]) -> None:
     write(tmp_path, grid, results_of(grid))
-    seen, log = look(tmp_path / "report.html", tmp_path)
+    draw = "<script>window.apncReady = () => apnc.drawAll() || true;</script>"
+    seen, log = look(tmp_path / "report.html", tmp_path, draw)
     assert seen["errors"] == [] and console_lines(log) == []
     keys = (STRICT, AUTHORS, "duty_factor_mean", "path_speed_m_per_s")
     assert set(seen["plots"]) == {f"plot-mi-{key}" for key in keys}
