@@ -54,14 +54,24 @@ _NAMED: Final = ", ".join(CONDITIONS)
 def walk(
     context: typer.Context,
     robot: Annotated[str | None, Option(help="Robot name or TOML file. Default: lilibot.")] = None,
-    mi: Annotated[str | None, Option(help="Modulatory input *. Default: 0.08.")] = None,
+    mi: Annotated[
+        str | None,
+        Option(help="Modulatory input MI, which sets the stepping rate *. Default: 0.08."),
+    ] = None,
     duration: Annotated[float | None, Option(help="Simulated time [s]. Default: 45.0.")] = None,
-    seed: Annotated[int | None, Option(help="Seed of noise and asymmetry. Default: 0.")] = None,
+    seed: Annotated[
+        int | None,
+        Option(help="Seed of noise, asymmetry and, with --roughness, obstacles. Default: 0."),
+    ] = None,
     controller: Annotated[
         str | None, Option(help=f"One of {_CONTROLLERS}. Default: apnc, or what --fmu starts with.")
     ] = None,
     preset: Annotated[
-        str | None, Option(help="Parameters of robot, lilibot or paper. Default: robot.")
+        str | None,
+        Option(
+            help="robot (the defaults and the robot's file), lilibot (the defaults) or paper "
+            "(as printed). Default: robot."
+        ),
     ] = None,
     setting: Annotated[
         list[str] | None,
@@ -72,12 +82,15 @@ def walk(
     ] = None,
     gait: Annotated[Path | None, Option(help="File of a stored gait to start with.")] = None,
     ground: Annotated[
-        str | None, Option(help="Ground, as kerb:height=0.006. Default: plane.")
+        str | None,
+        Option(help="plane, obstacles, kerb or waves, as kerb:height=0.006. Default: plane."),
     ] = None,
     roughness: Annotated[
-        float | None, Option(help="Roughness of the paper's obstacles [0 ... 1].")
+        float | None, Option(help="Obstacles of the paper, roughness 0 ... 1. Default: none.")
     ] = None,
-    slope: Annotated[float | None, Option(help="Rise of the ground along x [deg].")] = None,
+    slope: Annotated[
+        float | None, Option(help="Rise of the ground along x [deg]. Default: 0.")
+    ] = None,
     condition: Annotated[
         str | None, Option(help=f"Condition, one of {_NAMED} *. Default: C1.")
     ] = None,
@@ -86,12 +99,15 @@ def walk(
     ] = None,
     reset: Annotated[
         str | None,
-        Option(help="Whether the controller is held in its start state *. Default: false."),
+        Option(help="true or false *: holds the controller in its start state. Default: false."),
     ] = None,
     rate: Annotated[
         float | None, Option(help="Update rate of the controller [Hz]. Default: 60.0.")
     ] = None,
-    step: Annotated[float | None, Option(help="Longest integration step of the plant [s].")] = None,
+    step: Annotated[
+        float | None,
+        Option(help="Longest integration step of the plant [s]. Default: as the robot needs it."),
+    ] = None,
     engine: Annotated[
         str | None, Option(help="exudyn, mujoco or compiled. Default: exudyn.")
     ] = None,

@@ -15,8 +15,8 @@ import pytest
 
 from apnc_core.schema import Causality, Type
 from apnc_core.variables import scalars
-from build_fmu.writing import write_atomically
 from build_fmu.options import MODEL, PLATFORMS, host_platform
+from build_fmu.writing import write_atomically
 
 NATIVE = Path(__file__).parent / "native"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
