@@ -106,7 +106,7 @@ def walk(
     ] = None,
     step: Annotated[
         float | None,
-        Option(help="Longest integration step of the plant [s]. Default: as the robot needs it."),
+        Option(help="Longest integration step of the plant [s]. If omitted, the robot's own."),
     ] = None,
     engine: Annotated[
         str | None, Option(help="exudyn, mujoco or compiled. Default: exudyn.")
