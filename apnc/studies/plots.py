@@ -168,6 +168,7 @@ def _figure(
         scattermode="group",
         hovermode="closest",
     )
+    layout["legend"] |= {"itemsizing": "constant"}
     return Figure(key, title, note, data, layout, over_time=False)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -12,7 +13,7 @@ from apnc.controllers import named_controller
 from apnc.loop.provenance import what_was_run
 from apnc.report.figure import Figure
 from apnc.report.html import page
-from apnc.studies.claims import Claim, Judgement, judgements
+from apnc.studies.claims import FEW, Claim, Judgement, judgements
 from apnc.studies.machine import commit, processor
 from apnc.studies.plots import CRITERIA
 from apnc.studies.results import Result, columns_of, controllers_in, id_of, matching
@@ -23,12 +24,30 @@ from build_fmu.writing import Write
 TABLE_FILE: Final = "trials.csv"
 
 
+class Statement(NamedTuple):
+    """A statement of what was measured, taken apart for a table.
+
+    Args:
+        criterion: by which the gait has formed: strict, authors' or empty.
+        numbers: what is stated, or the two sides that are compared.
+        test: how sure it is: number of runs, p, size of the effect.
+    """
+
+    criterion: str
+    numbers: list[str]
+    test: list[str]
+
+
 class Part(NamedTuple):
-    """Contents of the report for one study."""
+    """Contents of the report for one study.
+
+    ``needs`` says for each claim what is missing for a verdict; empty if there is one.
+    """
 
     study: Study
     facts: list[tuple[str, str]]
     claims: list[tuple[Claim, Judgement]]
+    needs: list[str]
     failed: list[tuple[str, str]]
     figures: list[Figure]
 
@@ -57,6 +76,7 @@ def files_of(
             package="apnc.studies",
             parts=parts,
             facts=facts,
+            statements=statements,
         ),
         "claims.md": claims_markdown(parts, facts),
     }
@@ -87,9 +107,38 @@ def part_of(study: Study, grid: Sequence[Trial], results: Sequence[Result], scen
     ]
     shown = study.scenes(grid[0].experiment.robot) if scenes else []
     figures = [*study.figures(results), *shown]
-    return Part(
-        study, _asked(study, grid, results), judgements(results, study.claims), failed, figures
+    claims = judgements(results, study.claims)
+    needs = [_needs(results, *claim) for claim in claims]
+    return Part(study, _asked(study, grid, results), claims, needs, failed, figures)
+
+
+def _needs(results: Sequence[Result], claim: Claim, found: Judgement) -> str:
+    """What is missing for a verdict on a claim; empty if there is one."""
+    if found.verdict != FEW:
+        return ""
+    seeds = min(
+        len({result["seed"] for result in matching(results, controller=controller)})
+        for controller in claim.controllers
     )
+    if seeds < claim.seeds:
+        return f"needs {claim.seeds} seeds of each controller, has {seeds}"
+    return "needs more runs that have the numbers"
+
+
+def statements(measured: str) -> list[Statement]:
+    """What was measured of a claim, a statement for each line of a table."""
+    found, criterion = [], ""
+    for item in measured.split("; "):
+        if named := re.match(r"(strict|authors'): ", item):
+            criterion, item = named[1], item[named.end() :]
+        own, against, other = item.partition(" against ")
+        said = other or own
+        first, *rest = [said] if said.startswith("not run: ") else said.split(", ")
+        if against and rest and rest[0].startswith("n = "):
+            first = f"{first}, {rest.pop(0)}"
+        numbers = [own, f"against {first}"] if against else [first]
+        found.append(Statement(criterion, numbers, rest))
+    return found
 
 
 def _asked(study: Study, grid: Sequence[Trial], results: Sequence[Result]) -> list[tuple[str, str]]:

@@ -71,6 +71,33 @@ def test_the_report_shows_claims(tmp_path: Path, grid: list[Trial]) -> None:
     assert (tmp_path / "mi.md").read_text().startswith("| controller | MI | gait kept, strict")
 
 
+def test_what_was_measured_is_a_table() -> None:
+    text = (
+        "strict: APNC 3.0 (1.5 ... 4.1) s, n = 6 against Tegotae -, n = 0 of 6, faster in 3 of 3 "
+        "cells, p = 1, r = 0.00; APNC 3.0 s, n = 6 against Tegotae (best) -, n = 0, p = 1; "
+        "authors': 0.8 (0.6 ... 0.9) s, success 6/6 (54 ... 100 %)"
+    )
+    assert report.statements(text) == [
+        (
+            "strict",
+            ["APNC 3.0 (1.5 ... 4.1) s, n = 6", "against Tegotae -, n = 0 of 6"],
+            ["faster in 3 of 3 cells", "p = 1", "r = 0.00"],
+        ),
+        ("strict", ["APNC 3.0 s, n = 6", "against Tegotae (best) -, n = 0"], ["p = 1"]),
+        ("authors'", ["0.8 (0.6 ... 0.9) s"], ["success 6/6 (54 ... 100 %)"]),
+    ]
+    assert report.statements("too few") == [("", ["too few"], [])]
+
+
+def test_no_verdict_says_how_many_seeds_it_needs(tmp_path: Path) -> None:
+    few = grid_of("mi", 2, chosen={"mi": [0.08, 0.16]})
+    page = write(tmp_path, few, results_of(few))
+    assert "no verdict<small>needs 5 seeds of each controller, has 2</small>" in page
+    enough = grid_of("mi", 12, chosen={"mi": [0.08, 0.16, 0.24]})
+    page = write(tmp_path, enough, results_of(enough))
+    assert "needs 5 seeds" not in page
+
+
 def test_aims_are_reached_or_not_and_are_not_claims_of_the_paper(tmp_path: Path) -> None:
     aims = grid_of("gait", 6, chosen={"mi": [0.08, 0.16]})
     page = write(tmp_path, aims, results_of(aims))
