@@ -96,7 +96,7 @@ EXPERIMENTS = st.builds(
     turn=over(st.floats(-1, 1)),
     reset=over(st.booleans()),
     rate=st.floats(10, 1000),
-    step=st.floats(1e-5, 2e-3),
+    step=st.floats(1e-5, 1e-3),
     fmu=st.none() | st.deferred(lambda: st.just(own_fmu())),
 )
 
