@@ -149,7 +149,7 @@ def walk(
     if len(record) == 0:
         raise Interrupted(NOTHING)
     from apnc.report.folder import summary_text
-    from apnc.report.wording import rows
+    from apnc.report.wording import rows, verdicts
     from build_fmu.writing import write_atomically
 
     summary = apnc.write_report(record, output)
@@ -159,7 +159,8 @@ def walk(
         from apnc.report.mcap_file import write_mcap
 
         write_atomically(mcap_path, lambda path: write_mcap(record, path))
-    show_table(rows(summary))
+    answers = verdicts(summary, experiment.duration)
+    show_table([(v.question, v.answer, v.detail) for v in answers] + rows(summary))
     say_file("report", output / "report.html")
     why = f": {record.message}" if record.message else ""
     words = f"{record.end} at {record.ended_at:.2f} s{why}; what was recorded is in {output}"
