@@ -29,8 +29,8 @@ BUILDS = {
     "fmi3_flat": (3, lambda: cached_fmu(BuildOptions(platforms=(), fmi=3, naming="flat"))),
 }
 FORMS = [
-    *("fmi2", "fmi3", "plant"),
-    *(pytest.param(name, marks=pytest.mark.thorough) for name in ("reals", "fmi3_flat")),
+    *("fmi2", "fmi3"),
+    *(pytest.param(name, marks=pytest.mark.thorough) for name in ("plant", "reals", "fmi3_flat")),
 ]
 
 
