@@ -14,6 +14,11 @@ SHORTEST_STEP: Final = 1e-6
 """Shortest integration step that a robot may need [s]; with a shorter one no walk would end."""
 
 
+def _in_c(function: str, robot: RobotDescription) -> float:
+    numbers = robot_numbers(robot)  # the C function reads its arrays, so it lives until the end
+    return float(getattr(library()[1], function)(numbers.at))
+
+
 @lru_cache
 def longest_step(robot: RobotDescription) -> float:
     """Longest integration step that follows the motion of a robot [s].
@@ -21,15 +26,13 @@ def longest_step(robot: RobotDescription) -> float:
     It is computed in C from the robot's masses, servos and feet; ``docs/physics/step.md`` says how.
     A payload does not count.
     """
-    _, lib = library()
-    return float(lib.plant_longest_step(robot_numbers(robot).at))
+    return _in_c("plant_longest_step", robot)
 
 
 @lru_cache
 def stable_step(robot: RobotDescription) -> float:
     """Longest stable integration step [s]; with a longer one, vibrations grow that no robot has."""
-    _, lib = library()
-    return float(lib.plant_stable_step(robot_numbers(robot).at))
+    return _in_c("plant_stable_step", robot)
 
 
 @lru_cache
@@ -41,8 +44,7 @@ def own_step(robot: RobotDescription) -> float:
     Raises:
         ValueError: the robot needs a step below ``SHORTEST_STEP``.
     """
-    _, lib = library()
-    step = float(lib.plant_own_step(robot_numbers(robot).at))
+    step = _in_c("plant_own_step", robot)
     if not step >= SHORTEST_STEP:
         raise ValueError(
             f"servos or feet of robot '{robot.name}' are so stiff that it needs integration steps "

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import weakref
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +14,7 @@ from plants import Kind, in_both
 from unchecked import any_step
 
 from apnc_plant.compiled import Plant
+from apnc_plant.numbers import Numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.signals import PlantError
@@ -24,6 +28,31 @@ ROBOT = load_robot("lilibot")
 @pytest.mark.parametrize("name", ["lilibot", "hexapod", "octopod"])
 def test_shipped_robots_take_16_steps_a_tick(name: str) -> None:
     assert own_step(load_robot(name)) == 1.0 / 960.0
+
+
+@pytest.mark.parametrize("step", [longest_step, stable_step, own_step])
+def test_the_arrays_of_a_robot_live_while_c_reads_them(
+    step: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Arrays:
+        """Stands for the legs that the numbers of a robot point to."""
+
+    seen = []
+
+    def numbers(robot: RobotDescription) -> Numbers:
+        arrays = Arrays()
+        return Numbers(weakref.ref(arrays), (arrays,))
+
+    def read(at: Any) -> float:
+        seen.append(at() is not None)
+        return 0.001
+
+    functions = ("plant_longest_step", "plant_stable_step", "plant_own_step")
+    lib = SimpleNamespace(**dict.fromkeys(functions, read))
+    monkeypatch.setattr("apnc_plant.step.robot_numbers", numbers)
+    monkeypatch.setattr("apnc_plant.step.library", lambda: (None, lib))
+    step.__wrapped__(ROBOT)
+    assert seen == [True]
 
 
 @pytest.mark.parametrize("robot", [stiff_kneed(), heavy()], ids=lambda robot: robot.name)
