@@ -22,7 +22,7 @@ def install_command(extra: str) -> str:
         ``pip install "apnc[build]"`` if the package came from an index.
     """
     from urllib.parse import urlsplit  # noqa: PLC0415  # takes 10 ms, and is seldom needed
-    from urllib.request import url2pathname  # noqa: PLC0415
+    from urllib.request import url2pathname  # noqa: PLC0415  # as well
 
     found = _installed_from()
     path = Path(url2pathname(urlsplit(found.get("url", "")).path))

@@ -228,7 +228,7 @@ class _Found:
         }
 
     def _said(self, motors: dict[str, Motor], key: str, most: float, unit: str) -> list[float]:
-        """Limits that the file gives, without placeholders; none if any joint has no limit."""
+        """Limits that the file gives, without placeholders; joints that have none are reported."""
         values = {name: getattr(motor, key) for name, motor in motors.items()}
         known = {name: value for name, value in values.items() if value is not None and value > 0.0}
         placeholders = {name: value for name, value in known.items() if value >= most}
