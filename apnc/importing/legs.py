@@ -203,7 +203,7 @@ def _hinges(leg: tuple[Segment, ...]) -> tuple[Joint, Joint, Joint]:
 
 
 def _check_axes(leg: tuple[Segment, ...], joints: tuple[Joint, Joint, Joint]) -> None:
-    """Refuse a leg whose first joint is no abduction about x, followed by a joint across it."""
+    """Refuse a leg unless its first joint turns about x and its second at right angles to it."""
     name = leg[0].name
     first, second = (_axis(leg, k, {}) for k in range(2))
     if abs(first[0]) < math.cos(TOLERANCE):

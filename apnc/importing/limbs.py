@@ -123,7 +123,7 @@ class _Tree:
         return 1 + max(map(self.depth, self.after(part)), default=0)
 
     def axes(self, part: int) -> tuple[int, ...]:
-        """Along which axis of the trunk each joint of a chain turns, as drawn."""
+        """For each joint of a chain the axis of the trunk nearest to its own, all joints at 0."""
         found, frame = [], self._placed(part)
         at: int | None = part
         while at is not None:
@@ -172,7 +172,7 @@ class _Tree:
         return body, shapes, frames
 
     def _held(self, part: int) -> Frame:
-        """Placement of a part in its parent's frame, its joint held."""
+        """Placement of a part in its parent's frame, with its joint at the angle of the pose."""
         frame, joint = self.parts[part].frame, self.parts[part].joint
         if joint is None:
             return frame

@@ -41,7 +41,7 @@ _SERVO: Final = re.compile(
 
 
 def is_xacro(root: Element, path: Path) -> bool:
-    """True for xacro that is not expanded; an expanded file may keep the namespace."""
+    """Whether a file still has to be expanded by xacro; an expanded one may keep the namespace."""
     return path.suffix == ".xacro" or any(
         element.tag.startswith(XACRO) or any("${" in text for text in element.attrib.values())
         for element in root.iter("*")
