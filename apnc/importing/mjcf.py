@@ -1,8 +1,4 @@
-"""MJCF files as a tree of parts: MuJoCo resolves defaults, the mass stays that of the file.
-
-What a robot file does not need is taken out before MuJoCo reads the text, and includes are put in
-here, so that MuJoCo opens no file.
-"""
+"""MJCF files as a tree of parts: MuJoCo resolves defaults, the mass stays that of the file."""
 # ruff: noqa: PLC0415  # mujoco is an extra
 
 from __future__ import annotations
@@ -19,6 +15,7 @@ import numpy as np
 from lxml import etree
 
 from apnc.extras import missing
+from apnc.importing import mjcf_xml
 from apnc.importing.model import (
     NO_BODY,
     Frame,
@@ -30,18 +27,10 @@ from apnc.importing.model import (
     Shape,
     moved,
 )
-from apnc.importing.xml_file import LARGEST, Element, described, elements, read_xml
+from apnc.importing.xml_file import Element
 from apnc_core.types import Array
 from apnc_plant.robot import MassProperties
 
-DEEPEST: Final = 8
-"""Includes inside includes that are followed."""
-
-_NOT_NEEDED: Final = (
-    "asset", "extension", "sensor", "tendon", "contact", "deformable", "custom", "visual",
-    "statistic", "keyframe", "equality", "size",
-)  # fmt: skip
-_NOT_NEEDED_IN_BODIES: Final = ("camera", "light", "plugin", "composite", "flexcomp")
 _SMALLEST_MASS: Final = 1e-9
 """What MuJoCo takes a body without mass for [kg]; it is a mere frame here."""
 
@@ -67,15 +56,15 @@ def read_mjcf(root: Element, path: Path) -> Model:
     """
     if importlib.util.find_spec("mujoco") is None:
         raise ValueError(missing("mujoco", "mujoco"))
-    _include(root, path.parent, path.parent.resolve(), DEEPEST, [path.stat().st_size])
-    _check_numbers(root)
+    mjcf_xml.put_in_includes(root, path)
+    mjcf_xml.check_numbers(root)
     keys = {
         key.get("name"): key.get("qpos") for found in root.iter("keyframe") for key in found
         if key.get("name") and key.get("qpos")
     }  # fmt: skip
-    tied = _tied(root)
-    speed = _no_load_speed(root)
-    dropped = _strip(root)
+    tied = mjcf_xml.tied(root)
+    speed = mjcf_xml.no_load_speed(root)
+    dropped = mjcf_xml.strip(root)
     spec, model, left_out = _compiled(root)
     if left_out:
         dropped.append(f"{len(left_out)} meshes: neither shape nor mass is taken from them")
@@ -83,108 +72,6 @@ def read_mjcf(root: Element, path: Path) -> Model:
     parts = reader.parts()
     poses = {name: reader.pose(text, name) for name, text in keys.items()}
     return Model(root.get("model") or path.stem, tuple(parts), poses, tuple(dropped))
-
-
-def _include(at: Element, folder: Path, top: Path, left: int, size: list[int]) -> None:
-    """Put what is included in the place of ``<include>``.
-
-    Args:
-        at: element whose includes are followed.
-        folder: where its file lies.
-        top: the folder that no included file may leave.
-        left: how many levels are still followed.
-        size: bytes of all files so far, one entry.
-    """
-    for element in list(at.iter("include")):
-        name = element.get("file") or ""
-        found = (folder / name).resolve()
-        if not found.is_file():
-            found = (top / name).resolve()
-        if not name or not found.is_relative_to(top):
-            raise ModelFileError(
-                f"include is {name!r}; allowed: files in the folder of the model file"
-            )
-        if left == 0:
-            raise ModelFileError(f"include {name!r} is nested; allowed: {DEEPEST} levels")
-        try:
-            inner = read_xml(found)
-        except ModelFileError as error:
-            raise ModelFileError(f"include {name!r}: {error}") from None
-        size[0] += found.stat().st_size
-        if size[0] > LARGEST:
-            raise ModelFileError(f"it has {size[0]} bytes with includes; allowed: up to {LARGEST}")
-        _include(inner, found.parent, top, left - 1, size)
-        parent = element.getparent()
-        place = parent.index(element)
-        parent.remove(element)
-        for offset, child in enumerate(list(inner)):
-            parent.insert(place + offset, child)
-
-
-def _tied(root: Element) -> dict[str, str]:
-    """Bodies and joints that an equality ties to others, and to what."""
-    found: dict[str, str] = {}
-    for group in root.iter("equality"):
-        for element in group.iterchildren("*"):
-            if element.get("active") == "false":
-                continue
-            names = [element.get(key) for key in ("joint1", "joint2", "body1", "body2")]
-            tied = [name for name in names if name]
-            for name in tied:
-                others = [other for other in tied if other != name]
-                found[name] = ", ".join(others) or f"the world ({element.tag})"
-    return found
-
-
-def _no_load_speed(root: Element) -> float | None:
-    """What our own export notes in ``<custom>``."""
-    for element in root.iter("numeric"):
-        if element.get("name") == "no_load_speed":
-            try:
-                return float(element.get("data", ""))
-            except ValueError:
-                return None
-    return None
-
-
-def _strip(root: Element) -> list[str]:
-    """Take out what a robot file does not need; says what a reader might miss."""
-    said = []
-    for element in root.iter("attach", "model"):
-        if element.getparent().tag == "asset" or element.tag == "attach":
-            raise ModelFileError(f"it has <{element.tag}>, another model; allowed: <include>")
-    for tag in ("tendon", "equality"):
-        count = sum(len(group) for group in elements(root, tag))
-        if count:
-            said.append(f"{count} elements of <{tag}>")
-    for element in list(root):
-        if element.tag in _NOT_NEEDED:
-            root.remove(element)
-    for world in elements(root, "worldbody"):
-        for element in list(world.iter(*_NOT_NEEDED_IN_BODIES)):
-            element.getparent().remove(element)
-    for actuators in elements(root, "actuator"):
-        for element in list(actuators.iterchildren("*")):
-            if element.get("joint") is None:
-                said.append(f"actuator {element.get('name', element.tag)}: it drives no joint")
-                actuators.remove(element)
-    for element in root.iter("geom", "site", "skin"):
-        for name in ("material", "hfield", "fluidshape"):
-            element.attrib.pop(name, None)
-    for element in root.iter("compiler"):
-        for name in ("meshdir", "texturedir", "assetdir", "strippath"):
-            element.attrib.pop(name, None)
-    return said
-
-
-def _check_numbers(root: Element) -> None:
-    """Refuse numbers that are none: MuJoCo only warns of them, in a log file of its own."""
-    for element in root.iter("*"):
-        for name, text in element.attrib.items():
-            if name != "name" and "nan" in text.lower().split():
-                raise ModelFileError(
-                    f"{described(element)}: {name} is {text!r}; allowed: finite numbers"
-                )
 
 
 def _compiled(root: Element) -> tuple[Any, Any, set[int]]:
