@@ -14,6 +14,7 @@ import typer
 from typer import Option
 
 import apnc
+from apnc.cli.browser import open_page
 from apnc.cli.console import (
     apart,
     bar,
@@ -56,7 +57,10 @@ def walk(
     robot: Annotated[str | None, Option(help="Robot name or TOML file. Default: lilibot.")] = None,
     mi: Annotated[
         str | None,
-        Option(help="Modulatory input MI, which sets the stepping rate *. Default: 0.08."),
+        Option(
+            help="Modulatory input MI, which sets the stepping rate *. Default: the robot's own, "
+            "or 0.08."
+        ),
     ] = None,
     duration: Annotated[float | None, Option(help="Simulated time [s]. Default: 45.0.")] = None,
     seed: Annotated[
@@ -102,7 +106,8 @@ def walk(
         Option(help="true or false *: holds the controller in its start state. Default: false."),
     ] = None,
     rate: Annotated[
-        float | None, Option(help="Update rate of the controller [Hz]. Default: 60.0.")
+        float | None,
+        Option(help="Update rate of the controller [Hz]. Default: the robot's own, or 60."),
     ] = None,
     step: Annotated[
         float | None,
@@ -122,6 +127,7 @@ def walk(
     mcap: Annotated[
         Path | None, file_option("MCAP log to write, for Foxglove or PlotJuggler.")
     ] = None,
+    opened: Annotated[bool, Option("--open", help="Open the report in the browser.")] = False,
 ) -> None:
     """Walk a robot under the FMU and write summary.json, record.csv and report.html.
 
@@ -148,6 +154,8 @@ def walk(
         record = apnc.simulate(experiment, progress=progress, stop=STOP)
     if len(record) == 0:
         raise Interrupted(NOTHING)
+    from apnc.loop.of_robot import source_of_mi, source_of_rate
+    from apnc.loop.schedule import schedule_text
     from apnc.report.folder import summary_text
     from apnc.report.wording import rows, verdicts
     from build_fmu.writing import write_atomically
@@ -160,8 +168,14 @@ def walk(
 
         write_atomically(mcap_path, lambda path: write_mcap(record, path))
     answers = verdicts(summary, experiment.duration)
-    show_table([(v.question, v.answer, v.detail) for v in answers] + rows(summary))
+    asked = [
+        ("MI", f"{schedule_text(experiment.mi)}", source_of_mi(experiment)),
+        ("Update rate", f"{experiment.rate:g} Hz", source_of_rate(experiment)),
+    ]
+    show_table([(v.question, v.answer, v.detail) for v in answers] + rows(summary) + asked)
     say_file("report", output / "report.html")
+    if opened:
+        open_page((output / "report.html").absolute().as_uri())
     why = f": {record.message}" if record.message else ""
     words = f"{record.end} at {record.ended_at:.2f} s{why}; what was recorded is in {output}"
     if record.end is apnc.End.interrupted:
