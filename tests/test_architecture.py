@@ -24,7 +24,7 @@ MAY_IMPORT |= {"research": PRODUCT, "benchmarks": PRODUCT | {"research"}, "play"
 OUTSIDE_OF_CORE = {"numpy"}
 
 PARTS_OF_APNC = (
-    ("controllers", "extras", "metrics"),
+    ("controllers", "extras", "metrics", "varied"),
     ("loop",),
     ("feet",),
     ("features",),
