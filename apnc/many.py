@@ -9,6 +9,7 @@ from apnc.features import WalkFeatures, walk_features
 from apnc.loop.batch import Stop
 from apnc.loop.experiment import Experiment
 from apnc.loop.many import walk_many
+from apnc.loop.of_robot import warn_of_mi
 from apnc.loop.record import Record
 
 
@@ -61,6 +62,7 @@ def simulate_many(
     Raises:
         ValueError: fewer than one worker, a controller that cannot be used, or one that refused.
     """
+    warn_of_mi(experiments)
     found: list[WalkFeatures | Record | None] = [None] * len(experiments)
     done = 0
 

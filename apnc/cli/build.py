@@ -140,7 +140,7 @@ def platform_names(words: list[str] | None) -> tuple[str, ...]:
 def _of_robot(
     name: str | None, legs: int | None, *, own: bool
 ) -> tuple[tuple[str, ...], dict[str, SettingLike]]:
-    """Names of the legs and start values of a robot: its weight and its own preset.
+    """Names of the legs and start values of a robot: weight, update rate and its own preset.
 
     Args:
         name: of the robot, or None for the shipped one with ``legs`` legs.
@@ -166,4 +166,6 @@ def _of_robot(
     usual = variable_named("robot_weight").start
     if usual is None or not math.isclose(robot.weight, usual):
         settings["robot_weight"] = robot.weight
+    if robot.rate is not None:
+        settings["Ts"] = 1.0 / robot.rate
     return tuple(leg.name for leg in robot.legs), settings

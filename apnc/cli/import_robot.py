@@ -38,7 +38,7 @@ def import_robot(
     _say(robot, file)
     say(
         f"{output}: walk it with\n"
-        f"apnc walk --robot {output} --engine compiled --rate {robot.rate:.3g}"
+        f"apnc walk --robot {output} --engine compiled"
     )
 
 
@@ -63,6 +63,7 @@ def _say(found: ImportedRobot, file: Path) -> None:
         f"\nstance: hips {stance.ratio:.3g} and middle of the feet {stance.behind:.3g} behind the "
         "centre of mass, in halves of the distance of neighbouring hips"
     )
+    say(f"update rate: {robot.rate:.3g} Hz, at which it moves as Lilibot does at 60 Hz")
     say("\nestimated, since the file does not say it")
     show_table(
         (

@@ -53,7 +53,9 @@ def build_system(
     ] = None,
     robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
-    mi: Annotated[float, Option(help="Modulatory input at the start.")] = 0.08,
+    mi: Annotated[
+        float | None, Option(help="Modulatory input at the start. Default: the robot's, or 0.08.")
+    ] = None,
     seed: Annotated[int, Option(help="Seed of noise, asymmetry and obstacles.")] = 0,
     condition: Annotated[str, Option(help="Condition, C1 to C4 or S1 to S3.")] = "C1",
     payload: Annotated[
@@ -66,7 +68,10 @@ def build_system(
     turn: Annotated[float, Option(help="Steering, -1 right ... 1 left.")] = 0.0,
     controller: Annotated[str, Option(help=f"Controller, one of {_CONTROLLERS}.")] = "apnc",
     preset: Annotated[str, Option(help="Parameters of robot, lilibot or paper.")] = "robot",
-    rate: Annotated[float, Option(help="Update rate of the controller [Hz].")] = 60.0,
+    rate: Annotated[
+        float | None,
+        Option(help="Update rate of the controller [Hz]. Default: the robot's, or 60."),
+    ] = None,
     setting: Annotated[
         list[str] | None,
         Option(
@@ -92,7 +97,11 @@ def build_system(
         apart({"--output": output}, given(robot=robot, gait=gait))
         numbers = dict(filter(None, map(plant_setting, setting or ())))
         own = [text for text in setting or () if plant_setting(text) is None]
-        words = context.params | {"mi": str(mi), "turn": str(turn), "setting": own}
+        words = context.params | {
+            "mi": None if mi is None else str(mi),
+            "turn": str(turn),
+            "setting": own,
+        }
         experiment = experiment_of(words)
         if payload:
             named = named_conditions(condition)

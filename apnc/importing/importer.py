@@ -41,7 +41,6 @@ class ImportedRobot:
         joints: how its joints are counted in the file.
         estimates: numbers that are not the file's.
         dropped: what of the file is not in the robot, in words.
-        rate: update rate to walk it at [Hz].
     """
 
     toml: str
@@ -51,7 +50,6 @@ class ImportedRobot:
     joints: tuple[JointMap, ...]
     estimates: tuple[Estimate, ...]
     dropped: tuple[str, ...]
-    rate: float
 
 
 def import_robot(path: str | Path, pose: str | None = None) -> ImportedRobot:
@@ -124,7 +122,6 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
         guessed.estimates,
         (*model.dropped, *limbs.folded, *stance.dropped, *guessed.dropped, *text.dropped,
          *_not_said(legs)),
-        guessed.rate,
     )  # fmt: skip
 
 

@@ -109,9 +109,9 @@ def robot_text(found: Found, source: str) -> Text:
     lines = [
         f"# Imported from {source}. SI units, angles in degrees; x forward, y to the left, z up.",
         "# Behind '# in the file' stand its joints; q is the angle here, in rad.",
-        f"# At {found.guessed.rate:.3g} Hz (--rate) it moves as Lilibot does at 60 Hz.",
         "",
         f"name = {json.dumps(found.name, ensure_ascii=False)}",
+        f"rate = {_value(found.guessed.rate)} # Hz, at which it moves as Lilibot does at 60 Hz",
         *_table("trunk", {key: _value(value) for key, value in trunk.items()}),
     ]
     if common:

@@ -18,6 +18,8 @@ from apnc.controllers import OWN_CONTROLLER, named_controller
 from apnc.loop.as_dict import to_dict
 from apnc.loop.code import code_hash
 from apnc.loop.engines import OWN_ENGINE, check_engine
+from apnc.loop.push import Push, pushes_text
+from apnc.loop.of_robot import own_mi, own_rate
 from apnc.loop.schedule import Schedule, checked_schedule, schedule_text, steps_of
 from apnc_core.enumerations import Method
 from apnc_core.frozen import Frozen
@@ -94,7 +96,7 @@ def _ground(value: Any, _: Any) -> Ground:
     return value
 
 
-def _if_given(value: Any, check: Callable[[Any], float]) -> float | None:
+def _if_given(value: Any, check: Callable[[Any], Any]) -> Any:
     return None if value is None else check(value)
 
 
@@ -119,7 +121,8 @@ class Experiment:
 
     Args:
         robot: name of a shipped robot, its file, or a description.
-        mi: modulatory input [1], one value or steps over time ``((start [s], value), ...)``.
+        mi: modulatory input [1], one value or steps over time ``((start [s], value), ...)``; the
+            robot's own if omitted, else 0.08, clipped into the robot's ``mi_range``.
         duration: simulated time [s], rounded to whole ticks.
         seed: seed of the robot's asymmetry and the sensor noise.
         controller: label of a method of the FMU with its settings, see ``apnc.controllers``.
@@ -132,25 +135,28 @@ class Experiment:
             value or steps.
         turn: steering [1], positive turns left; one value or steps.
         reset: whether the controller is held in its start state; one value or steps.
-        rate: update rate of the controller [Hz]; 60 or the FMU's own if omitted.
+        rate: update rate of the controller [Hz]; if omitted, the FMU's own, else the robot's, else
+            60.
         step: longest integration step of the plant [s]; the robot's own if omitted, see
             ``apnc_plant.step``.
         engine: what integrates the equations of motion, ``exudyn``, ``mujoco`` or ``compiled``.
         fmu: file of the controller; the built one if omitted. Its own start values, those that are
             not the defaults, hold unless ``rate``, ``controller``, ``settings`` or a preset other
             than ``robot`` say otherwise; they go before what the robot's file sets.
+        pushes: impulses from outside while it walks.
 
     Numbers and arrays of numpy become numbers and tuples, and paths become texts.
 
     Pitfall: ``dataclasses.replace(experiment, fmu=...)`` keeps the rate and the controller of the
-    experiment; with ``rate=None, controller=None`` besides, those of the FMU hold.
+    experiment; with ``rate=None, controller=None`` besides, those of the FMU hold. In the same way
+    ``replace(experiment, robot=..., rate=None, mi=None, step=None)`` takes those of the new robot.
 
     Raises:
         ValueError: a value outside what is allowed, or names that the robot does not have.
     """
 
     robot: Annotated[str | RobotDescription, WrapValidator(_robot)] = "lilibot"
-    mi: Annotated[Schedule[float], _over_time(_in_range("MI"))] = 0.08
+    mi: Annotated[Schedule[float], _over_time(_in_range("MI")), WrapValidator(_if_given)] = None  # type: ignore[assignment]  # as rate
     duration: Number = 45.0
     seed: Seed = 0
     controller: str | None = None
@@ -164,10 +170,11 @@ class Experiment:
     step: Annotated[Number, WrapValidator(_if_given)] = None  # type: ignore[assignment]  # as rate
     engine: str = OWN_ENGINE
     fmu: Annotated[str, limits(allowed="the path of a file")] | None = None
+    pushes: tuple[Push, ...] = ()
 
     def __post_init__(self) -> None:
         """Check everything before anything runs."""
-        for name, value in self._of_fmu().items():
+        for name, value in self._omitted().items():
             if getattr(self, name) is None:
                 object.__setattr__(self, name, value)
         present = [conditions_of(value) for _, value in steps_of(self.conditions)]
@@ -183,10 +190,14 @@ class Experiment:
         object.__setattr__(self, "step", checked_step(self.step, self.description))
         self.parameters()
 
-    def _of_fmu(self) -> dict[str, Any]:
-        """Defaults of ``rate`` and ``controller``; an FMU of one's own may have its own rate."""
-        Ts: Any = self.fmu_starts.get("Ts", variable_named("Ts").start)
-        return {"rate": 1.0 / Ts, "controller": OWN_CONTROLLER if self.fmu is None else None}
+    def _omitted(self) -> dict[str, Any]:
+        """Defaults that depend on the robot and on an FMU of one's own."""
+        Ts: Any = self.fmu_starts.get("Ts")
+        return {
+            "rate": own_rate(self.description, Ts),
+            "mi": own_mi(self.description),
+            "controller": OWN_CONTROLLER if self.fmu is None else None,
+        }
 
     def _check_times(self) -> None:
         limits = variable_named("Ts")
@@ -289,9 +300,9 @@ class Experiment:
     def changed(self) -> dict[str, Any]:
         """Fields by name that differ from the default.
 
-        The values of an FMU and the step of the robot are defaults.
+        The values of an FMU, and rate, MI and step of the robot are defaults.
         """
-        default = {f.name: getattr(_default(), f.name) for f in fields(self)} | self._of_fmu()
+        default = {f.name: getattr(_default(), f.name) for f in fields(self)} | self._omitted()
         default["step"] = own_step(self.description)
         own = {name: getattr(self, name) for name in default}
         return {name: value for name, value in own.items() if value != default[name]}
@@ -348,6 +359,8 @@ class Experiment:
                 words += ["--ground", value.text()]
             elif name == "robot":
                 words += ["--robot", value if isinstance(value, str) else value.name]
+            elif name == "pushes":
+                words += ["--push", pushes_text(value)]
             elif name == "conditions":
                 words += ["--condition", schedule_text(value, _name_of)]
             else:

@@ -13,6 +13,7 @@ from apnc.loop.batch import Batch, Run, Stop, contacts_of, lanes_of
 from apnc.loop.engines import COMPILED, plant_in
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuController
+from apnc.loop.of_robot import warn_of_mi
 from apnc.loop.record import End, Record, merged
 from apnc.loop.schedule import ScheduleLookup
 from apnc_plant.options import PlantOptions
@@ -42,7 +43,7 @@ def simulate(
     progress: WalkProgress = lambda t, controller: None,
     stop: Stop = lambda: False,
 ) -> Record:
-    """Walk a robot under the controller FMU.
+    """Walk a robot under the controller FMU. It warns of an MI outside the robot's ``mi_range``.
 
     At tick n the controller gets the loads that the sensors show at t_n = n Ts, and its joint
     commands act on the servos from t_n to t_n+1: what a control computer on the robot does.
@@ -61,6 +62,18 @@ def simulate(
     Raises:
         ValueError: the FMU cannot be used, or is for another number of legs.
     """
+    warn_of_mi([experiment])
+    return walk_one(experiment, plant=plant, progress=progress, stop=stop)
+
+
+def walk_one(
+    experiment: Experiment,
+    *,
+    plant: Plant | None = None,
+    progress: WalkProgress = lambda t, controller: None,
+    stop: Stop = lambda: False,
+) -> Record:
+    """As :func:`simulate`, without a warning."""
     if plant is None and experiment.engine == COMPILED:
         return _run_in_c(experiment, progress, stop)
     robot = experiment.description

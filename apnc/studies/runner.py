@@ -14,8 +14,9 @@ from apnc.loop.batch import Stop
 from apnc.loop.csv_file import write_csv
 from apnc.loop.engines import COMPILED
 from apnc.loop.many import walk_many
+from apnc.loop.of_robot import warn_of_mi
 from apnc.loop.record import Record
-from apnc.loop.simulate import simulate
+from apnc.loop.simulate import walk_one
 from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry, Registry, names_of
 from apnc.studies.report import files_of
 from apnc.studies.results import PHASE, Result, StudyResults, id_of
@@ -91,6 +92,7 @@ def run_study(
         raise ValueError("series are kept in a folder: give an output")
     if path is not None and path.exists() and path.stat().st_size > 0 and not resume:
         raise ValueError(f"{path} holds trials already; --resume continues them")
+    warn_of_mi(trial.experiment for trial in asked)
     total = sum(trial.experiment.duration for trial in grid.values())
     with pool(workers, scheduler, grid.values()) as executor, Store(path) as store:
         for legs in {len(trial.experiment.description.legs) for trial in grid.values()}:
@@ -179,7 +181,7 @@ def run_trials(
 def run_trial(trial: Trial, series: Path | None = None) -> Result:
     """Run one trial and give its result, see :func:`run_trials`."""
     try:
-        return _result(trial, simulate(trial.experiment), series)
+        return _result(trial, walk_one(trial.experiment), series)
     except Exception as error:
         return _failed(trial, error)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from apnc.loop.experiment import Experiment
+from apnc.loop.of_robot import own_rate
 from apnc_core import __version__
 from apnc_plant.fmu_config import HEADER, robot_config
 from apnc_plant.robot import RobotDescription, load_robot
@@ -95,7 +95,7 @@ class PlantBuild:
             enumerations=ENUMERATIONS,
             types=REAL_TYPES,
             log_categories=LOG_CATEGORIES,
-            step=Experiment().Ts,
+            step=1.0 / own_rate(robot),
             naming=self.naming,
             fmi=self.fmi,
             enumerations_as=self.enumerations,

@@ -14,6 +14,7 @@ from pydantic import AfterValidator, ValidationInfo, ValidatorFunctionWrapHandle
 from apnc_core import settings
 from apnc_core.frozen import Frozen
 from apnc_core.types import Array
+from apnc_core.variables import variable_named
 from apnc_plant.files import Number, checked, limits
 
 
@@ -263,6 +264,28 @@ def _preset(values: Mapping[str, Any]) -> Frozen[Any]:
 Preset = Annotated[Mapping[str, Any], AfterValidator(_preset)]
 
 
+def _limits_of(name: str) -> tuple[float, float]:
+    """Smallest and largest value of a variable of the controller."""
+    variable = variable_named(name)
+    assert variable.min is not None and variable.max is not None
+    return variable.min, variable.max
+
+
+_SHORTEST, _LONGEST = _limits_of("Ts")
+_LEAST_MI, _MOST_MI = _limits_of("MI")
+Rate = Annotated[Number, limits("Hz", ge=1.0 / _LONGEST, le=1.0 / _SHORTEST)]
+ModulatoryInput = Annotated[Number, limits("1", ge=_LEAST_MI, le=_MOST_MI)]
+
+
+def _growing(span: tuple[float, float]) -> tuple[float, float]:
+    if span[0] > span[1]:
+        raise ValueError(f"{list(span)} falls; allowed: the lower end, then the upper")
+    return span
+
+
+MiRange = Annotated[tuple[ModulatoryInput, ModulatoryInput], AfterValidator(_growing)]
+
+
 @checked(RobotDescriptionError)
 class RobotDescription:
     """A robot as data, independent of any engine.
@@ -274,11 +297,14 @@ class RobotDescription:
             hind, then the others from front to hind.
         controller: its own preset: parameters of the controller that differ from the defaults, by
             name. Enumerations are given by item name or number.
+        rate: update rate that it walks at [Hz]; None for the default of a run.
+        mi_range: lowest and highest MI at which its gait was found [1]; None if that is not known.
+        mi: MI that it walks at where none is asked for [1]; None for the default of a run.
 
     Raises:
         RobotDescriptionError: a value out of range; two legs of one name; right legs that are not
             half of all, rounded down (the controller takes the first n // 2 legs for the right
-            ones); no such parameter, or a value it cannot have.
+            ones); no such parameter, or a value it cannot have; an ``mi`` outside ``mi_range``.
     """
 
     name: Name
@@ -288,6 +314,16 @@ class RobotDescription:
     contact: Contact
     sensor: Sensor = field(default_factory=Sensor)
     controller: Preset = field(default_factory=partial(Frozen, {}))
+    rate: Rate | None = None
+    mi_range: MiRange | None = None
+    mi: ModulatoryInput | None = None
+
+    def __post_init__(self) -> None:
+        """Check what depends on several fields."""
+        if self.mi is not None and self.mi_range is not None:
+            low, high = self.mi_range
+            if not low <= self.mi <= high:
+                raise ValueError(f"mi is {self.mi}; allowed: {low} to {high}, its mi_range [1]")
 
     @property
     def mass(self) -> float:

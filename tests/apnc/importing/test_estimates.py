@@ -59,7 +59,7 @@ def test_lilibot_without_drives_gets_lilibots(tmp_path: Path) -> None:
         assert value == pytest.approx(getattr(own.contact, name)), name
     assert found.robot.sensor.delay == pytest.approx(own.sensor.delay)
     assert found.robot.trunk.com_side_offset == pytest.approx(own.trunk.com_side_offset)
-    assert found.rate == pytest.approx(60.0)
+    assert found.robot.rate == pytest.approx(60.0)
 
 
 def test_a_larger_robot_moves_alike(tmp_path: Path) -> None:
@@ -82,7 +82,7 @@ def test_a_larger_robot_moves_alike(tmp_path: Path) -> None:
         (contact.friction_speed, own.contact.friction_speed, LONGER / time),
         (found.robot.sensor.delay, own.sensor.delay, time),
         (found.robot.sensor.time_constant, own.sensor.time_constant, time),
-        (found.rate, 60.0, 1.0 / time),
+        (found.robot.rate, 60.0, 1.0 / time),
     ):
         assert value == pytest.approx(original * factor)
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
-from dog_urdf import Dog
+from dog_urdf import FEMUR, FOOT_AHEAD, SHANK, Dog
 
 import apnc
 from apnc.cli import main as command_line
@@ -26,8 +27,11 @@ def test_an_imported_dog_walks(tmp_path: Path) -> None:
     found = import_robot(model)
     path.write_text(found.toml)
     record = apnc.simulate(
-        apnc.Experiment(robot=str(path), engine="compiled", duration=20.0, mi=0.15, rate=found.rate)
+        apnc.Experiment(robot=str(path), engine="compiled", duration=20.0, mi=0.15)
     )
+    leg = FEMUR + math.hypot(SHANK, FOOT_AHEAD)
+    assert found.robot.rate == pytest.approx(60.0 * math.sqrt(0.155 / leg))
+    assert record.experiment.rate == found.robot.rate
     features = apnc.walk_features(record)
     assert record.complete
     assert features.gait == "trot"
@@ -50,7 +54,8 @@ def test_the_command_writes_the_file_and_says_what_was_found(
         "servo.stiffness",
         "effort 1000 N m of 12 joints",
         "arm_yaw is held",
-        f"apnc walk --robot {path} --engine compiled --rate ",
+        f"apnc walk --robot {path} --engine compiled",
+        "update rate: 36.9 Hz, at which it moves as Lilibot does at 60 Hz",
     ):
         assert words in shown, words
 

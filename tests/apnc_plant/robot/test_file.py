@@ -115,7 +115,7 @@ def written(tmp_path: Path, text: str) -> str:
         (
             'name = "lilibot"',
             'name = "a"\nheight = 3',
-            "height is 3; allowed: only contact, controller, leg, legs, n",
+            "height is 3; allowed: only contact, controller, leg, legs, mi",
         ),
         ("[servo]", "[servo]\nforce = 3", "servo.force is 3; allowed: only damping, latency"),
     ],

@@ -9,7 +9,16 @@ from typing import Any
 import pytest
 from pydantic import TypeAdapter
 
-from apnc_plant.robot import ROBOTS, Body, Contact, Leg, Sensor, Servo, Trunk
+from apnc_plant.robot import (
+    ROBOTS,
+    Body,
+    Contact,
+    Leg,
+    RobotDescription,
+    Sensor,
+    Servo,
+    Trunk,
+)
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "robots" / "own.md"
 PARTS = {
@@ -55,8 +64,24 @@ def test_every_key_is_on_the_page(path: str) -> None:
 def test_the_page_lists_no_key_that_is_gone() -> None:
     known = {f"{path}.{name}" for path, part in PARTS.items() for name in units(part)}
     known |= {f"leg.{link}.{name}" for link in ("femur", "tibia") for name in units(Body)}
-    known |= {"name", "legs[k].name", "legs[k].mount", "controller.NAME"}
-    assert {key for key in listed() if "." in key or key == "name"} <= known
+    known |= {"name", "rate", "mi_range", "mi", "legs[k].name", "legs[k].mount", "controller.NAME"}
+    assert set(listed()) <= known
+
+
+def test_the_keys_at_the_top_are_on_the_page() -> None:
+    rows, found = listed(), units_of_top()
+    assert found == {name: rows[name][0] for name in found} != {}
+
+
+def units_of_top() -> dict[str, str]:
+    """Unit of every number at the top of a robot file."""
+    found = {}
+    for name, schema in TypeAdapter(RobotDescription).json_schema()["properties"].items():
+        value = schema.get("anyOf", [schema])[0]
+        value = value.get("prefixItems", [value])[0]
+        if "unit" in value:
+            found[name] = value["unit"]
+    return found
 
 
 def value_at(table: Any, key: str) -> Any:
