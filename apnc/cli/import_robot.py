@@ -36,10 +36,7 @@ def import_robot(
     robot = read(file, pose)
     writable(output, file=True).write_text(robot.toml, encoding="utf-8")
     _say(robot, file)
-    say(
-        f"{output}: walk it with\n"
-        f"apnc walk --robot {output} --engine compiled"
-    )
+    say(f"{output}: walk it with\napnc walk --robot {output} --engine compiled")
 
 
 def _say(found: ImportedRobot, file: Path) -> None:

@@ -54,7 +54,8 @@ def build_system(
     robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
     naming: Annotated[str, Option(help=_NAMING)] = "structured",
     mi: Annotated[
-        float | None, Option(help="Modulatory input at the start. Default: the robot's, or 0.08.")
+        float | None,
+        Option(help="Modulatory input at the start. Default: 0.08, or the robot's own."),
     ] = None,
     seed: Annotated[int, Option(help="Seed of noise, asymmetry and obstacles.")] = 0,
     condition: Annotated[str, Option(help="Condition, C1 to C4 or S1 to S3.")] = "C1",
@@ -70,7 +71,7 @@ def build_system(
     preset: Annotated[str, Option(help="Parameters of robot, lilibot or paper.")] = "robot",
     rate: Annotated[
         float | None,
-        Option(help="Update rate of the controller [Hz]. Default: the robot's, or 60."),
+        Option(help="Update rate of the controller [Hz]. Default: 60.0, or the robot's own."),
     ] = None,
     setting: Annotated[
         list[str] | None,

@@ -58,8 +58,8 @@ def walk(
     mi: Annotated[
         str | None,
         Option(
-            help="Modulatory input MI, which sets the stepping rate *. Default: the robot's own, "
-            "or 0.08."
+            help="Modulatory input MI, which sets the stepping rate *. Default: 0.08, or the "
+            "robot's own."
         ),
     ] = None,
     duration: Annotated[float | None, Option(help="Simulated time [s]. Default: 45.0.")] = None,
@@ -107,7 +107,7 @@ def walk(
     ] = None,
     rate: Annotated[
         float | None,
-        Option(help="Update rate of the controller [Hz]. Default: the robot's own, or 60."),
+        Option(help="Update rate of the controller [Hz]. Default: 60.0, or the robot's own."),
     ] = None,
     step: Annotated[
         float | None,
