@@ -151,6 +151,10 @@ class Plant:
         if self._lib.plant_state_of(self._plant.at, 0) == self._lib.PLANT_DIVERGED:
             raise PlantError(diverged(self.time, self._step))
 
+    def shift_velocity(self, x: float, y: float) -> None:
+        """Change the velocity of the whole robot along x and y of the world at once [m/s]."""
+        self._lib.plant_shift_velocity(self._plant.at, 0, x, y)
+
     def _measure(self) -> None:
         self._lib.plant_sample(self._plant.at, 0, self._sample_in_c)
 

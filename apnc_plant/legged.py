@@ -76,6 +76,9 @@ class Engine(Protocol):
             False if the motion diverged.
         """
 
+    def set_speeds(self, v: Array) -> None:
+        """Replace the present speeds, shape (6 + 3 n_legs,)."""
+
     def mass_matrix(self) -> Array:
         """Mass matrix at the present coordinates, shape (6 + 3 n_legs, 6 + 3 n_legs)."""
 
@@ -258,6 +261,11 @@ class LeggedPlant:
         if not moved or not np.isfinite(self._q).all():
             self._forces.check()
             raise PlantError(diverged(self.time, self._step))
+
+    def shift_velocity(self, x: float, y: float) -> None:
+        """Change the velocity of the whole robot along x and y of the world at once [m/s]."""
+        self._v[:2] += x, y
+        self._engine.set_speeds(self._v)
 
     def _measure(self) -> None:
         self._forces.measure(self._q, self._v)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from apnc_core.types import Array
 from apnc_plant.conditions import Conditions
@@ -42,3 +42,14 @@ class Plant(Protocol):
 
     def trace(self) -> Trace:
         """A recorder of every signal in ``apnc_plant.signals.PLANT_SIGNALS``."""
+
+
+@runtime_checkable
+class LivePlant(Plant, Protocol):
+    """A plant that can be watched and pushed while it walks."""
+
+    def sample(self) -> dict[str, Array]:
+        """One sample of every signal in ``PLANT_SIGNALS``, at the current time."""
+
+    def shift_velocity(self, x: float, y: float) -> None:
+        """Change the velocity of the whole robot along x and y of the world at once [m/s]."""

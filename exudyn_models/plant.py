@@ -48,6 +48,10 @@ class ExudynTree(Engine):
         q[:], v[:] = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
         return bool(solved)
 
+    def set_speeds(self, v: Array) -> None:
+        """Replace the speeds; see ``Engine``."""
+        self.mbs.systemData.SetODE2Coordinates_t(v)
+
     def mass_matrix(self) -> Array:
         """Mass matrix; see ``Engine``."""
         self.solver.ComputeMassMatrix(self.mbs)

@@ -85,6 +85,10 @@ class MujocoTree(Engine):
         # mj_step would also check for divergence, and reset the motion with a warning
         mj().mj_forward(self.model, self.data)
 
+    def set_speeds(self, v: Array) -> None:
+        """Replace the speeds; see ``Engine``."""
+        self.data.qvel[:] = v
+
     def mass_matrix(self) -> Array:
         """Mass matrix; see ``Engine``."""
         columns = np.zeros((self.model.nv, self.model.nv))

@@ -29,6 +29,7 @@ from apnc.cli.console import (
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.controllers import CONTROLLERS
 from apnc.extras import install_command
+from apnc.loop.push import parse_pushes
 from apnc.loop.schedule import parse_schedule
 from apnc.report import RUN_FILES
 from apnc_core.enumerations import Method
@@ -108,6 +109,13 @@ def walk(
     rate: Annotated[
         float | None,
         Option(help="Update rate of the controller [Hz]. Default: 60.0, or the robot's own."),
+    ] = None,
+    push: Annotated[
+        str | None,
+        Option(
+            help="SECONDS:X:Y of a push: when it begins, and its impulse along x (forward at the "
+            "start) and y (left) [N s]; several with commas between. Default: none."
+        ),
     ] = None,
     step: Annotated[
         float | None,
@@ -203,6 +211,8 @@ def experiment_of(options: Mapping[str, Any]) -> Experiment:
     for name, option, convert in _SCHEDULES:
         if option in said:
             given[name] = parse_schedule(option, said[option], convert)
+    if "push" in said:
+        given["pushes"] = parse_pushes(said["push"])
     given |= _ground(*map(said.get, ("ground", "roughness", "slope", "seed")))
     settings: dict[str, Any] = {}
     if "params" in said:

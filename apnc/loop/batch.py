@@ -13,8 +13,9 @@ import numpy as np
 from apnc.loop.controller_library import ControllerLibrary, controller_library
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuError
+from apnc.loop.push import velocity_changes
 from apnc.loop.record import End, Record, merged
-from apnc.loop.schedule import steps_of
+from apnc.loop.schedule import first_tick, steps_of
 from apnc_core.schema import Shape
 from apnc_core.types import Array
 from apnc_core.variables import variable_named
@@ -81,6 +82,7 @@ class Run:
             ) from None
         self._samples, self._shown = np.split(table, [ticks * sample_size(n_legs)])
         self._parameters = np.empty(len(controller.parameters))
+        changes = velocity_changes(experiment.pushes, self.mass, experiment.Ts, ticks)
         schedules = {name: _schedule(experiment, name) for name in ("mi", "turn", "reset")}
         fields = {
             "guid": controller.guid,
@@ -95,6 +97,9 @@ class Run:
             "n_conditions": len(steps),
             "condition_tick": ffi.new("int32_t[]", [tick for tick, _ in steps]),
             "condition": ffi.new("plant_conditions[]", [c.at[0] for c in conditions]),
+            "n_pushes": len(changes),
+            "push_tick": ffi.new("int32_t[]", list(changes)),
+            "push": ffi.new("double[]", [v for change in changes.values() for v in change]),
             "plant_record": ffi.from_buffer("double[]", self._samples),
             "controller_record": ffi.from_buffer("double[]", self._shown),
             "parameters": ffi.from_buffer("double[]", self._parameters),
@@ -176,16 +181,8 @@ def _ticks(experiment: Experiment, name: str) -> list[tuple[int, Any]]:
     found: dict[int, Any] = {}
     for start, value in steps_of(getattr(experiment, name)):
         if start < experiment.ticks * experiment.Ts:
-            found[_first_tick(start, experiment.Ts)] = value
+            found[first_tick(start, experiment.Ts)] = value
     return sorted(found.items())
-
-
-def _first_tick(start: float, Ts: float) -> int:
-    """The first tick n with n Ts >= start, computed as the loop in Python does."""
-    n = max(0, int(start / Ts) - 1)
-    while n * Ts < start:
-        n += 1
-    return n
 
 
 def _schedule(experiment: Experiment, name: str) -> tuple[dict[str, Any], tuple[Any, ...]]:

@@ -19,6 +19,7 @@ from apnc.loop.as_dict import to_dict
 from apnc.loop.code import code_hash
 from apnc.loop.engines import OWN_ENGINE, check_engine
 from apnc.loop.of_robot import own_mi, own_rate
+from apnc.loop.push import Push, pushes_text
 from apnc.loop.schedule import Schedule, checked_schedule, schedule_text, steps_of
 from apnc_core.enumerations import Method
 from apnc_core.frozen import Frozen
@@ -142,6 +143,7 @@ class Experiment:
         fmu: file of the controller; the built one if omitted. Its own start values, those that are
             not the defaults, hold unless ``rate``, ``controller``, ``settings`` or a preset other
             than ``robot`` say otherwise; they go before what the robot's file sets.
+        pushes: impulses from outside while it walks.
 
     Numbers and arrays of numpy become numbers and tuples, and paths become texts.
 
@@ -168,6 +170,7 @@ class Experiment:
     step: Annotated[Number, WrapValidator(_if_given)] = None  # type: ignore[assignment]  # as rate
     engine: str = OWN_ENGINE
     fmu: Annotated[str, limits(allowed="the path of a file")] | None = None
+    pushes: tuple[Push, ...] = ()
 
     def __post_init__(self) -> None:
         """Check everything before anything runs."""
@@ -356,6 +359,8 @@ class Experiment:
                 words += ["--ground", value.text()]
             elif name == "robot":
                 words += ["--robot", value if isinstance(value, str) else value.name]
+            elif name == "pushes":
+                words += ["--push", pushes_text(value)]
             elif name == "conditions":
                 words += ["--condition", schedule_text(value, _name_of)]
             else:

@@ -54,6 +54,19 @@ class ScheduleLookup:
         return self._values[bisect_right(self._starts, t) - 1]
 
 
+def first_tick(start: float, Ts: float) -> int:
+    """The first tick n with n Ts >= start, computed as the loop in Python does.
+
+    Args:
+        start: a time [s].
+        Ts: time of a tick [s].
+    """
+    n = max(0, int(start / Ts) - 1)
+    while n * Ts < start:
+        n += 1
+    return n
+
+
 def parse_schedule(name: str, text: str, convert: Callable[[str], T]) -> Schedule[T]:
     """``"0.1"`` -> 0.1; ``"0:0.15,25:0.4"`` -> ((0, 0.15), (25, 0.4)).
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final, Protocol
 
@@ -14,10 +15,12 @@ from apnc.loop.engines import COMPILED, plant_in
 from apnc.loop.experiment import Experiment, conditions_of
 from apnc.loop.fmu_controller import FmuController
 from apnc.loop.of_robot import warn_of_mi
+from apnc.loop.push import Push, velocity_changes
 from apnc.loop.record import End, Record, merged
 from apnc.loop.schedule import ScheduleLookup
+from apnc_core.types import Array
 from apnc_plant.options import PlantOptions
-from apnc_plant.plant import Plant, PlantError
+from apnc_plant.plant import LivePlant, Plant, PlantError
 from build_fmu.build import host_fmu
 
 
@@ -32,6 +35,12 @@ class Shown(Protocol):
 WalkProgress = Callable[[float, Shown], None]
 """Called with the time [s] and what is shown of the controller."""
 
+Watch = Callable[[float, Mapping[str, Array], Shown], Iterable[tuple[float, float]]]
+"""Called with the time [s], a sample of the plant and what is shown of the controller.
+
+It gives the pushes that begin then: impulses along x and y of the world [N s].
+"""
+
 IN_C_S: Final = 0.25
 """Simulated time that is walked in C between two calls of ``progress`` and ``stop`` [s]."""
 
@@ -42,6 +51,7 @@ def simulate(
     plant: Plant | None = None,
     progress: WalkProgress = lambda t, controller: None,
     stop: Stop = lambda: False,
+    watch: Watch | None = None,
 ) -> Record:
     """Walk a robot under the controller FMU. It warns of an MI outside the robot's ``mi_range``.
 
@@ -54,16 +64,20 @@ def simulate(
         progress: called with the time [s] and the state of the controller after every tick; with
             ``engine="compiled"`` every quarter of a simulated second.
         stop: called as often; True ends the run.
+        watch: called at every tick before the robot moves, also with ``engine="compiled"``, which
+            then walks tick by tick in Python with the same bits. The experiment of the record has
+            the pushes that it gave, so that the run can be repeated.
 
     Returns:
         The record. A fall, a motion that diverges or ``stop`` end the run early; the record then
         holds the samples up to there.
 
     Raises:
-        ValueError: the FMU cannot be used, or is for another number of legs.
+        ValueError: the FMU cannot be used, or is for another number of legs; the plant cannot be
+            watched or pushed.
     """
     warn_of_mi([experiment])
-    return walk_one(experiment, plant=plant, progress=progress, stop=stop)
+    return walk_one(experiment, plant=plant, progress=progress, stop=stop, watch=watch)
 
 
 def walk_one(
@@ -72,9 +86,10 @@ def walk_one(
     plant: Plant | None = None,
     progress: WalkProgress = lambda t, controller: None,
     stop: Stop = lambda: False,
+    watch: Watch | None = None,
 ) -> Record:
     """As :func:`simulate`, without a warning."""
-    if plant is None and experiment.engine == COMPILED:
+    if plant is None and watch is None and experiment.engine == COMPILED:
         return _run_in_c(experiment, progress, stop)
     robot = experiment.description
     path = Path(experiment.fmu) if experiment.fmu else host_fmu(len(robot.legs))
@@ -84,7 +99,7 @@ def walk_one(
                 f"{path} is for {controller.n_legs} legs; robot '{robot.name}' has "
                 f"{len(robot.legs)}"
             )
-        return _run(experiment, plant or plant_of(experiment), controller, progress, stop)
+        return _run(experiment, plant or plant_of(experiment), controller, progress, stop, watch)
 
 
 def plant_of(experiment: Experiment) -> Plant:
@@ -108,12 +123,18 @@ def _run(
     controller: FmuController,
     progress: WalkProgress,
     stop: Stop,
+    watch: Watch | None,
 ) -> Record:
+    live = plant if isinstance(plant, LivePlant) else None
+    if live is None and (watch or experiment.pushes):
+        raise ValueError(f"a {type(plant).__name__} can be neither watched nor pushed")
     begin, Ts = time.perf_counter(), experiment.Ts
     mi, turn = ScheduleLookup(experiment.mi), ScheduleLookup(experiment.turn)
     reset, conditions = ScheduleLookup(experiment.reset), ScheduleLookup(experiment.conditions)
     body, brain, parameters = plant.trace(), controller.trace(), controller.parameters()
     end, message, present = End.complete, "", conditions.at(0.0)
+    pushes = experiment.pushes
+    changes = velocity_changes(pushes, plant.mass, Ts, experiment.ticks)
     for n in range(experiment.ticks):
         if stop():
             end = End.interrupted
@@ -125,6 +146,13 @@ def _run(
         controller.step(t, Ts, plant.grf(), mi.at(t), turn.at(t), reset.at(t))
         body.take()
         brain.take()
+        if watch and live:
+            given = [Push(t, x, y) for x, y in watch(t, live.sample(), controller)]
+            if given:
+                pushes += tuple(given)
+                changes = velocity_changes(pushes, plant.mass, Ts, experiment.ticks)
+        if live and n in changes:
+            live.shift_velocity(*changes[n])
         try:
             plant.advance(controller.theta_hip, controller.theta_knee, Ts)
         except PlantError as problem:
@@ -134,6 +162,8 @@ def _run(
             end = End.fell
             break
         progress(t + Ts, controller)
+    if pushes != experiment.pushes:
+        experiment = replace(experiment, pushes=pushes)
     return Record(
         legs=plant.legs,
         time=np.arange(len(body), dtype=np.float64) * Ts,

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any, Final
 
 from apnc import metrics, walking
 from apnc.features import WalkFeatures
 from apnc.loop.experiment import Experiment
+from apnc.loop.push import Push
 from apnc.loop.record import End, Record
 from apnc.loop.schedule import schedule_text
 from apnc_plant.conditions import Conditions
@@ -41,13 +42,15 @@ def heading(experiment: Experiment) -> str:
     """What of an experiment is not default, in a line."""
     changed = {**experiment.changed()}
     settings = changed.pop("settings", {})
+    pushes = len(changed.pop("pushes", ()))
+    pushed = [f"pushed {pushes} times" if pushes > 1 else "pushed once"] if pushes else []
     words = [
         _plain(value)
         if name in _SPEAK_FOR_THEMSELVES
         else f"{'MI' if name == 'mi' else name} {_plain(value)}{_UNITS.get(name, '')}"
         for name, value in changed.items()
     ]
-    return ", ".join([*words, *_settings(settings)]) or "all as by default"
+    return ", ".join([*words, *_settings(settings), *pushed]) or "all as by default"
 
 
 def facts(record: Record) -> list[tuple[str, str]]:
@@ -63,8 +66,21 @@ def facts(record: Record) -> list[tuple[str, str]]:
         ("Stored gait", f"φ {_plain(stored)} rad at the start" if stored else "none at the start"),
         *((name.capitalize(), _plain(getattr(e, name))) for name in ("turn", "conditions")),
         *(("MI", _plain(e.mi)), ("Ground", _plain(e.ground)), ("Seed", str(e.seed))),
+        *([("Pushes", _pushes(e.pushes))] if e.pushes else []),
         ("Engine", f"{e.engine}, step {1e6 * e.step:.4g} µs"),
     ]
+
+
+def _pushes(pushes: Iterable[Push]) -> str:
+    """When and how hard a robot was pushed, e.g. ``0.2 N s forward, 0.1 N s right at 3 s``."""
+    return "; ".join(
+        f"{_way(push.x, 'forward', 'back')}, {_way(push.y, 'left', 'right')} at {push.at:.4g} s"
+        for push in pushes
+    )
+
+
+def _way(impulse: float, positive: str, negative: str) -> str:
+    return f"{abs(impulse):.3g} N s {positive if impulse >= 0.0 else negative}"
 
 
 def _own_fmu(e: Experiment, parameters: Mapping[str, Any]) -> list[tuple[str, str]]:

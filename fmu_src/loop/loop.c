@@ -44,6 +44,7 @@ typedef struct {
     fmu_component controller;
     fmu_callbacks callbacks;
     int32_t mi, turn, reset, condition; /* index of the value of each schedule that holds */
+    int32_t push;                       /* index of the push that comes next */
 } loop_lane;
 
 typedef struct {
@@ -177,7 +178,7 @@ void loop_begin(void *memory, int32_t lane, loop_run *run) {
     run->end = LOOP_RUNS;
     run->controller_s = 0.0;
     run->message[0] = '\0';
-    *at = (loop_lane){run, NULL, {0}, 0, 0, 0, 0};
+    *at = (loop_lane){run, NULL, {0}, 0, 0, 0, 0, 0};
     l->ground[lane] = run->ground;
     plant_place(plant_in(l), lane, run->robot, run->ground, run->seed, run->coordinates,
                 run->height, l->Ts);
@@ -259,7 +260,7 @@ static void record_plant(const loop *l, int32_t lane, const loop_run *run) {
     }
 }
 
-/* First half of a tick of a lane: conditions, controller, record, command. */
+/* First half of a tick of a lane: conditions, controller, record, command, push. */
 static const char *control(loop *l, int32_t lane) {
     loop_lane *at = &l->lane[lane];
     loop_run *run = at->run;
@@ -280,6 +281,10 @@ static const char *control(loop *l, int32_t lane) {
     if (run->controller_record) record_controller(l->variables, run, row);
     if (run->plant_record) record_plant(l, lane, run);
     plant_command(plant_in(l), lane, outputs, outputs + legs);
+    if (at->push < run->n_pushes && run->push_tick[at->push] == n) {
+        const double *change = run->push + 2 * at->push++;
+        plant_shift_velocity(plant_in(l), lane, change[0], change[1]);
+    }
     return NULL;
 }
 

@@ -84,6 +84,9 @@ typedef struct {
     int32_t n_conditions;              /* */
     const int32_t *condition_tick;     /* tick from which each condition holds; the first is 0 */
     const plant_conditions *condition; /* */
+    int32_t n_pushes;                  /* ticks at whose begin the robot is pushed */
+    const int32_t *push_tick;          /* they grow */
+    const double *push;                /* [m/s] change of velocity, x and y for each tick */
     double *plant_record;      /* the signals of plant_sample one after the other, each of `ticks`
                                   times its size; NULL: none */
     double *controller_record; /* the variables one after the other, each of `ticks` times its

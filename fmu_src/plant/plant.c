@@ -302,6 +302,11 @@ void plant_command(void *plant, int32_t lane, const double *hip, const double *k
     }
 }
 
+void plant_shift_velocity(void *plant, int32_t lane, double x, double y) {
+    *TRUNK(plant, xd.x, lane) += x;
+    *TRUNK(plant, xd.y, lane) += y;
+}
+
 /* Longest stable step of the robot in a lane, in its reference pose on a level plane. */
 static double stable_step_in(void *plant, int32_t lane) {
     const plant_header *h = (const plant_header *)plant;

@@ -208,6 +208,10 @@ void plant_set_conditions(void *plant, int32_t lane, const plant_conditions *con
  * each. */
 void plant_command(void *plant, int32_t lane, const double *hip, const double *knee);
 
+/* Change the velocity of the whole robot along x and y of the world at once [m/s], as a push on all
+ * its bodies does. */
+void plant_shift_velocity(void *plant, int32_t lane, double x, double y);
+
 /* Integrate one tick in equal steps of at most `step`, then read the sensors. Times are in s.
  * grounds: one per lane. */
 void plant_advance(void *plant, const plant_ground *const *grounds, double duration, double step);

@@ -51,6 +51,7 @@
 #define plant_sensor_start         PLANT_NAME(plant_sensor_start)
 #define plant_servo_torque         PLANT_NAME(plant_servo_torque)
 #define plant_set_conditions       PLANT_NAME(plant_set_conditions)
+#define plant_shift_velocity       PLANT_NAME(plant_shift_velocity)
 #define plant_side_offset          PLANT_NAME(plant_side_offset)
 #define plant_size                 PLANT_NAME(plant_size)
 #define plant_stable_step          PLANT_NAME(plant_stable_step)
