@@ -14,6 +14,14 @@ STUDIES: Final[Registry] = {
         Entry("sensitivity", "Numbers of the robot", "", ("change", "mi"), "research"),
         Entry("forward_model", "Forward models", "", ("model", "mi"), "research"),
         Entry("engines", "Three engines", "", (ROBOT, "engine", "mi"), "research"),
+        Entry("robustness", "Bodies by chance", "", (ROBOT, "share", "walk"), "research"),
+        Entry(
+            "robustness.numbers",
+            "One number at a time",
+            "",
+            (ROBOT, "number", "level", "walk"),
+            "research",
+        ),
         Entry(
             "contact", "Integration step of the ground contact", "", ("depth", "steps"), "research"
         ),
