@@ -133,7 +133,7 @@ def walk(
         Path | None, file_option("File to write the summary to as well.", "--json")
     ] = None,
     mcap: Annotated[
-        Path | None, file_option("MCAP log to write, for Foxglove or PlotJuggler.")
+        Path | None, file_option("MCAP log to write, for Foxglove, PlotJuggler or Rerun.")
     ] = None,
     opened: Annotated[bool, Option("--open", help="Open the report in the browser.")] = False,
 ) -> None:
@@ -174,7 +174,8 @@ def walk(
     if mcap_path:
         from apnc.report.mcap_file import write_mcap
 
-        write_atomically(mcap_path, lambda path: write_mcap(record, path))
+        with status("writing the log"):
+            write_atomically(mcap_path, lambda path: write_mcap(record, path))
     answers = verdicts(summary, experiment.duration)
     asked = [
         ("MI", f"{schedule_text(experiment.mi)}", source_of_mi(experiment)),
