@@ -31,6 +31,7 @@ PARTS_OF_APNC = (
     ("many", "walking"),
     ("importing", "report", "system"),
     ("studies",),
+    ("tune",),
     ("cli",),
     ("__main__",),
 )

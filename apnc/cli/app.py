@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from apnc.cli import build, export_robot, gait, import_robot, info, study, system, walk
+from apnc.cli import build, export_robot, gait, import_robot, info, study, system, tune, walk
 from apnc_core import __version__
 
 app = typer.Typer(
@@ -24,6 +24,7 @@ app.add_typer(gait.app, name="gait")
 app.add_typer(study.app, name="study")
 app.command("export-robot")(export_robot.export_robot)
 app.command("import-robot")(import_robot.import_robot)
+app.command("tune")(tune.tune)
 
 
 @app.callback(invoke_without_command=True)

@@ -43,9 +43,9 @@ def pool(
         ValueError: fewer than one worker, a missing extra, or no scheduler at the address.
     """
     if scheduler:
-        with _client(scheduler) as client:
+        with client(scheduler) as connected:
             # trials of a lost worker run elsewhere
-            yield client.get_executor(retries=3, pure=False)
+            yield connected.get_executor(retries=3, pure=False)
         return
     if workers < 1:
         raise ValueError(f"workers = {workers} is not at least 1")
@@ -65,7 +65,12 @@ def _processes(workers: int, engines: Sequence[str]) -> Any:
     return executor
 
 
-def _client(address: str) -> Any:
+def client(address: str) -> Any:
+    """Client of the Dask scheduler at an address.
+
+    Raises:
+        ValueError: a missing extra, or no scheduler at the address.
+    """
     try:
         from dask.distributed import Client  # noqa: PLC0415  # an extra
     except ImportError:

@@ -1,0 +1,106 @@
+"""Runs of candidates, walked in C on the threads of this process or on a Dask cluster."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any, Final
+
+from apnc.loop.batch import Stop
+from apnc.loop.many import walk_many
+from apnc.loop.record import Record
+from apnc.tune.costs import Measured, measured
+from apnc.tune.design import Start
+from apnc.tune.runs import Task
+
+CHUNK: Final = 64
+"""Runs in one task of a cluster; they take about a second."""
+
+
+class Interrupted(Exception):
+    """The runs were stopped before all of them had ended."""
+
+
+@dataclass(frozen=True)
+class Evaluator:
+    """Walks runs and measures them. The result depends on the runs only, not on who walks them.
+
+    Args:
+        start: what is tuned.
+        workers: number of threads in this process.
+        client: client of a Dask cluster that walks the runs instead.
+        stop: asked a few times a second; True ends the work.
+    """
+
+    start: Start
+    workers: int = 1
+    client: Any = None
+    stop: Stop = lambda: False
+
+    def __call__(self, tasks: Sequence[Task]) -> list[Measured]:
+        """What is measured of each run, in their order.
+
+        Raises:
+            Interrupted: ``stop`` ended the work.
+            ValueError: an experiment that cannot be run.
+        """
+        if self.client is None:
+            return _walked(self.start, tasks, self.workers, self.stop)
+        chunks = [tasks[at : at + CHUNK] for at in range(0, len(tasks), CHUNK)]
+        sent = [self.client.submit(_walked, self.start, chunk, pure=False) for chunk in chunks]
+        while not all(future.done() for future in sent):
+            if self.stop():
+                self.client.cancel(sent)
+                raise Interrupted
+            self._wait(sent)
+        return [each for future in sent for each in future.result()]
+
+    @staticmethod
+    def _wait(sent: Sequence[Any]) -> None:
+        from dask.distributed import wait  # noqa: PLC0415  # an extra
+
+        waiting = [future for future in sent if not future.done()]
+        try:
+            wait(waiting, timeout=0.2, return_when="FIRST_COMPLETED")
+        except TimeoutError:
+            return
+
+
+def _walked(
+    start: Start, tasks: Sequence[Task], workers: int = 1, stop: Stop = lambda: False
+) -> list[Measured]:
+    def measure(index: int, record: Record) -> Measured:
+        return measured(start, tasks[index], record)
+
+    found: list[Measured | None] = [None] * len(tasks)
+    experiments = [task.experiment for task in tasks]
+    for index, result in walk_many(experiments, measure, workers=workers, stop=stop):
+        if isinstance(result, Exception):
+            raise result
+        found[index] = result
+    if None in found:
+        raise Interrupted
+    return found  # type: ignore[return-value]  # none is missing
+
+
+def seconds(tasks: Sequence[Task]) -> float:
+    """Simulated time of runs [s]."""
+    return math.fsum(task.experiment.duration for task in tasks)
+
+
+@contextmanager
+def cluster(scheduler: str | None) -> Iterator[Any]:
+    """Client of the Dask scheduler at an address; None without one.
+
+    Raises:
+        ValueError: a missing extra, or no scheduler at the address.
+    """
+    if scheduler is None:
+        yield None
+        return
+    from apnc.studies.workers import client  # noqa: PLC0415  # takes long to import
+
+    with client(scheduler) as found:
+        yield found

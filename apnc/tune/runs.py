@@ -1,0 +1,207 @@
+"""The runs by which a candidate is judged: a few in every generation of a search, many in a check.
+
+All times are those of a robot of Lilibot's size; ``Start.time`` makes them those of the robot.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+import numpy as np
+
+from apnc.loop.experiment import Experiment
+from apnc.tune.design import Candidate, Start
+from apnc.varied import varied
+from apnc_plant.conditions import Conditions
+from apnc_plant.robot import RobotDescription
+from apnc_plant.step import own_step
+
+WALK_S: Final = 15.0
+"""Length of a run of the search [s]."""
+
+CHECK_S: Final = 30.0
+"""Length of a run of a check [s]."""
+
+MARGIN: Final = 0.1
+"""How far every uncertain number of a body is off at most in a search [1]."""
+
+PAYLOAD: Final = 0.2
+"""Payload of a run, as a share of the robot's mass [1]."""
+
+BREAKS_S: Final = 8.0
+"""When the sensor of a foot dies [s]; the gait has formed by then."""
+
+HELD_S: Final = 3.0
+"""How long a robot hangs in the air before it is let down [s]: some strides."""
+
+HELD_AT: Final = 0.06
+"""Height at which it hangs above its start, in leg lengths: no foot reaches the ground."""
+
+MI_COUNT: Final = 5
+"""Number of MI at which a candidate walks in a generation, and in a validation."""
+
+BODIES: Final = 3
+"""Number of bodies of a generation; their runs share them, since a body takes milliseconds to make."""
+
+_STEPS: Final = 8
+"""Integration steps of a tick are a multiple of this, so that candidates walk side by side."""
+
+_SEEDS: Final = 2**31
+"""First seed of checks; those of a search are below it."""
+
+_LEAST, _MOST = 0.0, 1.0
+
+
+@dataclass(frozen=True)
+class Task:
+    """A run of a candidate.
+
+    Args:
+        kind: what it tests: ``walk``, ``apc``, ``payload``, ``sensor``, ``air`` or ``varied``.
+        share: where its MI is in the range of the candidate, 0 to 1.
+        experiment: the run.
+    """
+
+    kind: str
+    share: float
+    experiment: Experiment
+
+
+def of_generation(start: Start, candidates: Sequence[Candidate], seed: int) -> list[list[Task]]:
+    """Runs of the candidates of a generation: the same seeds, MI and chance for each of them.
+
+    Every generation has bodies of its own that are off by ``MARGIN``, so that no set of gains is
+    found that walks one body only.
+
+    Args:
+        start: what is tuned.
+        candidates: the candidates.
+        seed: of the generation.
+    """
+    rng = np.random.default_rng(seed)
+    cells = np.arange(MI_COUNT)
+    shares = (cells + rng.uniform(size=MI_COUNT)) / MI_COUNT if seed % 2 else cells / cells[-1]
+    alone = (np.arange(2) + rng.uniform(size=2)) / 2.0
+    legs = [leg.name for leg in start.robot.legs]
+    dead = legs[int(rng.integers(len(legs)))]
+    plan: list[tuple[str, float, Any]] = [
+        *(("walk", float(share), Conditions()) for share in shares),
+        *(("apc", float(share), Conditions()) for share in alone),
+        ("payload", float(rng.uniform()), Conditions(payload=PAYLOAD * start.robot.mass)),
+        ("sensor", float(rng.uniform()), _broken(start, dead)),
+        ("air", float(rng.uniform()), _let_down(start)),
+    ]
+    seeds = rng.integers(_SEEDS, size=len(plan)).tolist()
+    found = []
+    for each in candidates:
+        bodies = [_off(each.robot, seed) for seed in seeds[:BODIES]]
+        found.append([
+            _task(
+                start, each, kind, share, WALK_S, conditions,
+                seed=seeds[k], body=bodies[k % BODIES],
+            )
+            for k, (kind, share, conditions) in enumerate(plan)
+        ])  # fmt: skip
+    return found
+
+
+def of_check(
+    start: Start, each: Candidate, *, count: int = 11, seconds: float = 20.0
+) -> list[Task]:
+    """Runs of a check during a search: the whole MI range with and without couplings."""
+    shares = np.linspace(_LEAST, _MOST, count)
+    seeds = range(_SEEDS, _SEEDS + 2 * count)
+    plan = [(kind, float(share)) for kind in ("walk", "apc") for share in shares]
+    return [
+        _task(start, each, kind, share, seconds, Conditions(), seed=seed)
+        for (kind, share), seed in zip(plan, seeds, strict=True)
+    ]
+
+
+def of_validation(start: Start, each: Candidate, seeds: int) -> Iterator[Task]:
+    """Runs of a validation, with seeds and bodies that no search and no check has.
+
+    Args:
+        start: what is tuned.
+        each: the candidate.
+        seeds: number of seeds at each MI.
+    """
+    first = _SEEDS + 2**20
+    shares = np.linspace(_LEAST, _MOST, MI_COUNT).tolist()
+    legs = [leg.name for leg in start.robot.legs]
+    for seed in range(first, first + seeds):
+        body = _off(each.robot, seed)
+        for share in shares:
+            for kind in ("walk", "apc"):
+                yield _task(start, each, kind, share, CHECK_S, Conditions(), seed=seed)
+            yield _task(start, each, "varied", share, CHECK_S, Conditions(), seed=seed, body=body)
+        middle = shares[MI_COUNT // 2]
+        loaded = Conditions(payload=PAYLOAD * each.robot.mass)
+        broken = _broken(start, legs[seed % len(legs)])
+        for kind, conditions in (
+            ("payload", loaded), ("sensor", broken), ("air", _let_down(start)),
+        ):  # fmt: skip
+            yield _task(start, each, kind, middle, CHECK_S, conditions, seed=seed)
+
+
+def _broken(start: Start, leg: str) -> Any:
+    return ((0.0, Conditions()), (BREAKS_S * start.time, Conditions(dropout=(leg,))))
+
+
+def _let_down(start: Start) -> Any:
+    held = Conditions(held_at=HELD_AT * start.length)
+    return ((0.0, held), (HELD_S * start.time, Conditions()))
+
+
+def _task(
+    start: Start,
+    each: Candidate,
+    kind: str,
+    share: float,
+    seconds: float,
+    conditions: Any,
+    *,
+    seed: int,
+    body: RobotDescription | None = None,
+) -> Task:
+    experiment = Experiment(
+        robot=body or each.robot,
+        mi=each.mi(share),
+        duration=seconds * start.time,
+        seed=seed,
+        controller="apc" if kind == "apc" else "apnc",
+        # the controller knows the weight of the robot's file, whatever the body weighs
+        settings={"robot_weight": each.robot.weight},
+        conditions=conditions,
+        rate=start.rate,
+        step=shared_step(each.robot, start.rate),
+        engine="compiled",
+    )
+    return Task(kind, share, experiment)
+
+
+def _off(robot: RobotDescription, seed: int) -> RobotDescription:
+    """The robot with every uncertain number off by chance, but for the delay of its sensors.
+
+    Robots walk side by side only with one delay.
+    """
+    found = varied(robot, MARGIN, np.random.default_rng(seed))
+    return replace(
+        found,
+        sensor=replace(found.sensor, delay=robot.sensor.delay),
+        servo=replace(found.servo, latency=robot.servo.latency),
+    )
+
+
+def shared_step(robot: RobotDescription, rate: float) -> float:
+    """An integration step for a robot and those that are nearly like it [s].
+
+    Raises:
+        ValueError: the robot needs too short a step.
+    """
+    tick = 1.0 / rate
+    wanted = tick / (own_step(robot) / (1.0 + MARGIN))
+    return tick / (_STEPS * max(2, math.ceil(wanted / _STEPS - 1e-9)))

@@ -1,0 +1,192 @@
+"""The search: CMA-ES over the design variables, with a check of its favourite now and then."""
+
+from __future__ import annotations
+
+import importlib
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from apnc.extras import missing
+from apnc.tune.costs import Measured, total
+from apnc.tune.design import Candidate, Start, candidate
+from apnc.tune.evaluate import Evaluator, Interrupted, seconds
+from apnc.tune.log import Log
+from apnc.tune.runs import of_check, of_generation
+from apnc_core.types import Array
+
+CANDIDATES: Final = 16
+"""Number of candidates in a generation."""
+
+SIGMA: Final = 0.15
+"""First standard deviation, as a share of each range."""
+
+CHECK_EVERY: Final = 4
+"""Generations from one check of the favourite to the next."""
+
+
+@dataclass(frozen=True)
+class Best:
+    """The best candidate so far.
+
+    Args:
+        x: its point, a coordinate in [0, 1] for each variable.
+        candidate: its robot.
+        runs: what was measured in its check.
+        cost: of these runs.
+    """
+
+    x: tuple[float, ...]
+    candidate: Candidate
+    runs: tuple[Measured, ...]
+    cost: float
+
+
+@dataclass
+class Count:
+    """How much was tried.
+
+    Args:
+        generations, candidates: number of them.
+        simulated: time that robots walked [s].
+        wall: time that it took [s].
+    """
+
+    generations: int = 0
+    candidates: int = 0
+    simulated: float = 0.0
+    wall: float = 0.0
+    resumed: int = 0
+    begun: float = field(default_factory=time.perf_counter)
+
+
+Told = Callable[[Best, Count], None]
+"""Called after every generation."""
+
+
+def search(
+    start: Start,
+    evaluator: Evaluator,
+    log: Log,
+    *,
+    seed: int,
+    candidates: int | None = None,
+    progress: Told = lambda best, count: None,
+) -> tuple[Best, Count]:
+    """Search until enough candidates were tried or the evaluator is stopped.
+
+    The same seed gives the same candidates, whoever walks them. A log of an earlier search is read
+    first: its costs stand for runs that need not be walked again.
+
+    Args:
+        start: what is tuned.
+        evaluator: walks the runs.
+        log: where every candidate and its cost is written.
+        seed: of the optimiser and all runs.
+        candidates: number of candidates to try; None: until the evaluator is stopped.
+        progress: called after the first check and after every generation.
+
+    Returns:
+        The best candidate and how much was tried.
+
+    Raises:
+        ValueError: the log is of another search.
+        RuntimeError: the package ``cma`` is missing.
+    """
+    count = Count()
+    checks = _Checks(start, evaluator, count)
+    strategy = _Strategy(start, seed)
+    try:
+        best = checks.of(start.first(), log)
+        progress(best, count)
+        while candidates is None or count.candidates < candidates:
+            points = strategy.ask()
+            costs = log.costs(count.generations, points)
+            if costs is None:
+                costs = _costs(start, evaluator, points, 1000 * seed + count.generations, count)
+                log.write(count.generations, points, costs)
+            else:
+                count.resumed += len(points)
+            strategy.tell(points, costs)
+            count.generations += 1
+            count.candidates += len(points)
+            if count.generations % CHECK_EVERY == 0 or candidates == count.candidates:
+                found = checks.of(strategy.favourite, log)
+                best = min(best, found, key=lambda each: each.cost)
+            count.wall = time.perf_counter() - count.begun
+            progress(best, count)
+    except Interrupted:
+        if checks.best is None:
+            raise
+        best = checks.best
+    count.wall = time.perf_counter() - count.begun
+    return best, count
+
+
+def _costs(
+    start: Start, evaluator: Evaluator, points: Sequence[Array], seed: int, count: Count
+) -> list[float]:
+    tried = [candidate(start, x) for x in points]
+    plan = of_generation(start, tried, seed)
+    tasks = [task for tasks in plan for task in tasks]
+    found = evaluator(tasks)
+    count.simulated += seconds(tasks)
+    each = len(plan[0])
+    return [total(found[at : at + each]) for at in range(0, len(found), each)]
+
+
+class _Checks:
+    """Checks of favourites, and the best of them."""
+
+    def __init__(self, start: Start, evaluator: Evaluator, count: Count) -> None:
+        self._start, self._evaluator, self._count = start, evaluator, count
+        self.best: Best | None = None
+
+    def of(self, x: Sequence[float], log: Log) -> Best:
+        """Check a point. One that the log has checked and found worse is not walked again."""
+        found = candidate(self._start, x)
+        known = log.check(self._count.generations)
+        if known is not None and self.best is not None and known >= self.best.cost:
+            return self.best
+        tasks = of_check(self._start, found)
+        runs = tuple(self._evaluator(tasks))
+        self._count.simulated += seconds(tasks)
+        checked = Best(tuple(map(float, x)), found, runs, total(runs))
+        log.write_check(self._count.generations, checked.cost)
+        if self.best is None or checked.cost < self.best.cost:
+            self.best = checked
+        return checked
+
+
+class _Strategy:
+    """CMA-ES that begins anew around its favourite, with more candidates, when it has converged."""
+
+    def __init__(self, start: Start, seed: int) -> None:
+        try:
+            self._cma: Any = importlib.import_module("cma")
+        except ModuleNotFoundError:
+            raise RuntimeError(missing("cma", "tune")) from None
+        self._seed, self._size = seed, CANDIDATES
+        self.favourite: list[float] = start.first()
+        self._begin()
+
+    def _begin(self) -> None:
+        options = {
+            "bounds": [0.0, 1.0], "seed": self._seed, "popsize": self._size, "verbose": -9,
+        }  # fmt: skip
+        self._now = self._cma.CMAEvolutionStrategy(self.favourite, SIGMA, options)
+
+    def ask(self) -> list[Array]:
+        """Points of the next generation."""
+        if self._now.stop():
+            self._seed += 1
+            self._size = round(1.5 * self._size)
+            self._begin()
+        points: list[Array] = self._now.ask()
+        return points
+
+    def tell(self, points: Sequence[Array], costs: Sequence[float]) -> None:
+        """Costs of the points."""
+        self._now.tell(points, costs)
+        self.favourite = [min(max(float(x), 0.0), 1.0) for x in self._now.result.xfavorite]

@@ -1,0 +1,182 @@
+"""From a robot file to a tuned one: search, file, and what the robot of the file does."""
+
+from __future__ import annotations
+
+import hashlib
+import shlex
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Final
+
+from apnc.loop.batch import Stop
+from apnc.tune.costs import target
+from apnc.tune.design import MI_AIMED, Candidate, Start, variables_for
+from apnc.tune.evaluate import Evaluator, Interrupted, cluster
+from apnc.tune.log import Log
+from apnc.tune.search import Best, Count, search
+from apnc.tune.tuned_file import path_of, read_back, tuned_text
+from apnc.tune.validation import SEEDS, Validation, validated
+from apnc_core import __version__
+from apnc_core.variables import variable_named
+from apnc_plant.robot import RobotDescription, load_robot
+
+MINUTES: Final = 10.0
+"""How long a search takes if nothing else is asked for [min]."""
+
+
+@dataclass(frozen=True)
+class Allowed:
+    """What a search may change besides stance and gains.
+
+    Args:
+        servo: stiffness and damping of the servos. Their torque and speed limits never change.
+        body: centre of mass, mass split, rotors and feet, for a robot that was never weighed.
+    """
+
+    servo: bool = True
+    body: bool = False
+
+
+@dataclass(frozen=True)
+class Tuned:
+    """A tuned robot.
+
+    Args:
+        text: its robot file.
+        robot: the same as a robot.
+        count: how much was tried.
+        validation: what it does; None if it was interrupted before that was walked.
+        command: what finds it again.
+    """
+
+    text: str
+    robot: RobotDescription
+    count: Count
+    validation: Validation | None
+    command: str
+
+
+def tune(
+    robot: str | Path,
+    *,
+    minutes: float | None = None,
+    candidates: int | None = None,
+    seed: int = 1,
+    mi: tuple[float, float] = MI_AIMED,
+    allowed: Allowed | None = None,
+    workers: int = 1,
+    scheduler: str | None = None,
+    log: Path | None = None,
+    resume: bool = False,
+    seeds: int = SEEDS,
+    progress: Callable[[Best, Count, float], None] = lambda best, count, share: None,
+    stop: Stop = lambda: False,
+) -> Tuned:
+    """Find the gait of a robot.
+
+    The same seed gives the same candidates, whatever the workers. How many are tried in a time
+    depends on the machine; ``candidates`` gives the same result everywhere.
+
+    Args:
+        robot: a robot file, or the name of a shipped robot.
+        minutes: how long to search [min]; ``MINUTES`` if neither this nor ``candidates`` is given.
+        candidates: how many candidates to try.
+        seed: of the optimiser and all runs, 1 to 2^20.
+        mi: MI range that is aimed at; the search may scale it.
+        allowed: what may be changed; the defaults of :class:`Allowed` if omitted.
+        workers: number of threads.
+        scheduler: address of a Dask scheduler whose workers walk instead.
+        log: CSV file of all candidates.
+        resume: go on with the search of the log.
+        seeds: number of seeds at each MI of the validation.
+        progress: called after every generation, with the share of the search that is done.
+        stop: asked a few times a second; True ends the search, and the best so far is kept.
+
+    Raises:
+        ValueError: a value that is not allowed, a robot without a known gait, or a log of another
+            search.
+        RuntimeError: a package of the extra ``tune`` is missing.
+        Interrupted: it was stopped before anything was found.
+    """
+    _check(minutes, candidates, seed, mi, workers, seeds)
+    allowed = allowed or Allowed()
+    begun, description = time.perf_counter(), load_robot(robot)
+    target(len(description.legs))
+    limit = None if candidates and minutes is None else 60.0 * (minutes or MINUTES)
+    start = Start(
+        description,
+        description.rate or 1.0 / float(variable_named("Ts").start or 0.0),
+        mi,
+        variables_for(servo=allowed.servo, body=allowed.body),
+    )
+    lines = Log(log)
+    lines.begin(
+        [variable.name for variable in start.variables],
+        {
+            "robot": hashlib.sha256(path_of(robot).read_bytes()).hexdigest()[:16],
+            "seed": seed, "mi": list(mi), "servo": allowed.servo, "body": allowed.body,
+            "version": __version__,
+        },
+        resume=resume,
+    )  # fmt: skip
+
+    def over() -> bool:
+        return stop() or (limit is not None and time.perf_counter() - begun > limit)
+
+    def told(best: Best, count: Count) -> None:
+        shares = [count.candidates / candidates] if candidates else []
+        shares += [(time.perf_counter() - begun) / limit] if limit else []
+        progress(best, count, min(1.0, max(shares)))
+
+    with cluster(scheduler) as client:
+        evaluator = Evaluator(start, workers, client, over)
+        best, count = search(
+            start, evaluator, lines, seed=seed, candidates=candidates, progress=told
+        )
+        again = _command(robot, seed, count, mi, allowed)
+        found = replace(best.candidate.robot, mi=_usual(best.candidate))
+        text = tuned_text(robot, found, [f"Tuned by {again}, version {__version__}."])
+        tuned = read_back(text)
+        candidate = Candidate(tuned, best.candidate.values)
+        try:
+            validation = validated(start, candidate, replace(evaluator, stop=stop), seeds)
+        except Interrupted:
+            validation = None
+    return Tuned(text, tuned, count, validation, again)
+
+
+def _usual(candidate: Candidate) -> float:
+    """MI to walk at where none is asked for: the middle of the range."""
+    return float(f"{candidate.mi(0.5):.2g}")
+
+
+def _check(
+    minutes: float | None, candidates: int | None, seed: int, mi: tuple[float, float],
+    workers: int, seeds: int,
+) -> None:  # fmt: skip
+    if minutes is not None and not 0.0 < minutes < 1e5:
+        raise ValueError(f"minutes = {minutes}; allowed: above 0, below 100000")
+    if candidates is not None and candidates < 1:
+        raise ValueError(f"candidates = {candidates}; allowed: 1 and more")
+    if not 1 <= seed <= 2**20:  # the optimiser takes 0 for the time of day
+        raise ValueError(f"seed = {seed}; allowed: 1 to {2**20}")
+    limits = variable_named("MI")
+    low, high = mi
+    if not (0.0 < low < high <= (limits.max or 1.0)):
+        raise ValueError(f"mi = {low:g},{high:g}; allowed: 0 < low < high <= {limits.max:g}")
+    if workers < 1:
+        raise ValueError(f"workers = {workers}; allowed: 1 and more")
+    if seeds < 1:
+        raise ValueError(f"seeds = {seeds}; allowed: 1 and more")
+
+
+def _command(
+    robot: str | Path, seed: int, count: Count, mi: tuple[float, float], allowed: Allowed
+) -> str:
+    words: list[Any] = ["apnc", "tune", robot, "--candidates", count.candidates, "--seed", seed]
+    if mi != MI_AIMED:
+        words += ["--mi", f"{mi[0]:g},{mi[1]:g}"]
+    words += ([] if allowed.servo else ["--keep-servo"]) + (["--body"] if allowed.body else [])
+    return shlex.join(map(str, words))
