@@ -103,8 +103,8 @@ def _say(tuned: Tuned, output: Path) -> None:
     count = tuned.count
     rate = count.simulated / count.wall if count.wall > 0.0 else 0.0
     say(
-        f"{count.candidates} candidates in {count.wall / 60.0:.1f} min, {rate:.0f} simulated seconds "
-        f"a second; found again by\n{tuned.command}\n"
+        f"{count.candidates} candidates in {count.wall / 60.0:.1f} min, {rate:.0f} simulated seconds"
+        f" a second; found again by\n{tuned.command}\n"
     )
     if tuned.validation is not None:
         _say_validation(tuned.validation)
@@ -126,14 +126,13 @@ def lines_to_paste(output: Path) -> tuple[str, ...]:
 def _say_validation(found: Validation) -> None:
     seeds = len(found.cells[0].runs)
     say(f"walks in a {found.gait} that holds, of {seeds} seeds that the search has not seen")
-    columns = {
-        kind: {cell.mi: cell for cell in found.of(kind)} for kind in ("walk", "apc", "varied")
-    }
+    kinds = ("walk", "apc", "varied")
+    columns = {kind: {cell.mi: cell for cell in found.of(kind)} for kind in kinds}
     show_table(
         (
             [
                 f"{mi:.3g}",
-                *(str(columns[kind][mi].good) for kind in ("walk", "apc", "varied")),
+                *(str(columns[kind][mi].good) for kind in kinds),
                 f"{cell.time * found.time:.1f}",
                 f"{cell.middle('speed') * found.speed:.3f}",
                 f"{1e3 * cell.middle('lift') * found.length:.1f}",

@@ -1,4 +1,4 @@
-"""Costs of a run, which are 0 for a perfect walk. Lengths count in leg lengths, speeds in sqrt(g L).
+"""Costs of a run, 0 for a perfect walk. Lengths count in leg lengths L, speeds in sqrt(g L).
 
 A gait counts only if the robot walks: else a search finds robots that march on the spot.
 """
@@ -196,7 +196,6 @@ def cost_of(run: Measured) -> float:
 
 
 def total(runs: Sequence[Measured]) -> float:
-    """Cost of a candidate: the mean over its runs, in which a large cost weighs more than many small
-    ones."""
+    """Cost of a candidate: a mean over its runs, in which one large cost exceeds many small."""
     costs = [cost_of(run) for run in runs]
     return sum(cost + cost**2 for cost in costs) / len(costs)

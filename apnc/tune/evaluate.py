@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -19,7 +19,7 @@ CHUNK: Final = 64
 """Runs in one task of a cluster; they take about a second."""
 
 
-class Interrupted(Exception):
+class Stopped(Exception):  # noqa: N818  # no error
     """The runs were stopped before all of them had ended."""
 
 
@@ -43,7 +43,7 @@ class Evaluator:
         """What is measured of each run, in their order.
 
         Raises:
-            Interrupted: ``stop`` ended the work.
+            Stopped: ``stop`` ended the work.
             ValueError: an experiment that cannot be run.
         """
         if self.client is None:
@@ -53,19 +53,17 @@ class Evaluator:
         while not all(future.done() for future in sent):
             if self.stop():
                 self.client.cancel(sent)
-                raise Interrupted
+                raise Stopped
             self._wait(sent)
         return [each for future in sent for each in future.result()]
 
     @staticmethod
     def _wait(sent: Sequence[Any]) -> None:
-        from dask.distributed import wait  # noqa: PLC0415  # an extra
+        from dask import distributed  # noqa: PLC0415  # an extra
 
-        waiting = [future for future in sent if not future.done()]
-        try:
-            wait(waiting, timeout=0.2, return_when="FIRST_COMPLETED")
-        except TimeoutError:
-            return
+        wait: Any = distributed.wait
+        with suppress(TimeoutError):
+            wait([f for f in sent if not f.done()], timeout=0.2, return_when="FIRST_COMPLETED")
 
 
 def _walked(
@@ -81,7 +79,7 @@ def _walked(
             raise result
         found[index] = result
     if None in found:
-        raise Interrupted
+        raise Stopped
     return found  # type: ignore[return-value]  # none is missing
 
 

@@ -44,7 +44,7 @@ MI_COUNT: Final = 5
 """Number of MI at which a candidate walks in a generation, and in a validation."""
 
 BODIES: Final = 3
-"""Number of bodies of a generation; their runs share them, since a body takes milliseconds to make."""
+"""Number of bodies of a generation; runs share them, since one takes milliseconds to make."""
 
 _STEPS: Final = 8
 """Integration steps of a tick are a multiple of this, so that candidates walk side by side."""

@@ -11,7 +11,7 @@ from typing import Any, Final
 from apnc.extras import missing
 from apnc.tune.costs import Measured, total
 from apnc.tune.design import Candidate, Start, candidate
-from apnc.tune.evaluate import Evaluator, Interrupted, seconds
+from apnc.tune.evaluate import Evaluator, Stopped, seconds
 from apnc.tune.log import Log
 from apnc.tune.runs import of_check, of_generation
 from apnc_core.types import Array
@@ -116,7 +116,7 @@ def search(
                 best = min(best, found, key=lambda each: each.cost)
             count.wall = time.perf_counter() - count.begun
             progress(best, count)
-    except Interrupted:
+    except Stopped:
         if checks.best is None:
             raise
         best = checks.best

@@ -42,9 +42,9 @@ def stood(
 ) -> tuple[RobotDescription, tuple[float, float]]:
     """The robot in another stance.
 
-    What all legs have in common of the change goes into the offsets of the motor neurons (Eq. 8, 9),
-    so that the reference pose of a robot whose legs are alike stays as it is. The rest goes into the
-    reference angles of each leg.
+    What all legs have in common of the change goes into the offsets of the motor neurons
+    (Eq. 8, 9), so that the reference pose of a robot whose legs are alike stays as it is. The rest
+    goes into the reference angles of each leg.
 
     Args:
         robot: the robot.

@@ -13,7 +13,7 @@ from typing import Any, Final
 from apnc.loop.batch import Stop
 from apnc.tune.costs import target
 from apnc.tune.design import MI_AIMED, Candidate, Start, variables_for
-from apnc.tune.evaluate import Evaluator, Interrupted, cluster
+from apnc.tune.evaluate import Evaluator, Stopped, cluster
 from apnc.tune.log import Log
 from apnc.tune.search import Best, Count, search
 from apnc.tune.tuned_file import path_of, read_back, tuned_text
@@ -98,7 +98,7 @@ def tune(
         ValueError: a value that is not allowed, a robot without a known gait, or a log of another
             search.
         RuntimeError: a package of the extra ``tune`` is missing.
-        Interrupted: it was stopped before anything was found.
+        Stopped: it was stopped before anything was found.
     """
     _check(minutes, candidates, seed, mi, workers, seeds)
     allowed = allowed or Allowed()
@@ -142,7 +142,7 @@ def tune(
         candidate = Candidate(tuned, best.candidate.values)
         try:
             validation = validated(start, candidate, replace(evaluator, stop=stop), seeds)
-        except Interrupted:
+        except Stopped:
             validation = None
     return Tuned(text, tuned, count, validation, again)
 

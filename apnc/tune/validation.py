@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from statistics import median
 from typing import Final
 
@@ -107,8 +108,8 @@ class Validation:
             lift, slip = cell.middle("lift"), cell.middle("slip")
             if lift < AIM_LIFT:
                 words.append(
-                    f"MI {cell.mi:.3g}: the lowest foot lifts by {1e3 * lift * self.length:.1f} mm, "
-                    f"{lift:.1%} of the leg; aimed at {AIM_LIFT:.0%}"
+                    f"MI {cell.mi:.3g}: the lowest foot lifts by {1e3 * lift * self.length:.1f}"
+                    f" mm, {lift:.1%} of the leg; aimed at {AIM_LIFT:.0%}"
                 )
             if slip > AIM_SLIP:
                 words.append(
@@ -116,7 +117,7 @@ class Validation:
                     f"{AIM_SLIP:.0%}"
                 )
         speeds = [cell.middle("speed") for cell in walks]
-        if any(later <= before for before, later in zip(speeds, speeds[1:], strict=False)):
+        if any(later <= before for before, later in pairwise(speeds)):
             told = ", ".join(f"{speed * self.speed:.3f}" for speed in speeds)
             words.append(f"its speed does not grow with MI throughout: {told} m/s")
         return words
