@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -9,9 +10,11 @@ import numpy as np
 from apnc import metrics
 from apnc.report.encoding import Signal, packed
 from apnc.report.panels import Run
-from apnc.report.skeleton import in_ground, in_trunk, leg_chains, trunk_corners
+from apnc.report.skeleton import Plant, in_ground, in_trunk, leg_chains, trunk_corners
+from apnc.report.theme import leg_colours
 from apnc_core.types import Array
 from apnc_plant.ground import Ground
+from apnc_plant.robot import RobotDescription
 
 REACH: Final = 4.5
 """How far the ground is drawn around the path [diagonals of the robot seen from above]."""
@@ -38,37 +41,88 @@ def animation_data(run: Run) -> dict[str, Any]:
     """
     record, at, plant = run.record, run.samples.at, run.shown
     ground, opens = record.experiment.ground, run.samples.opens_at
-    track = in_ground(ground, plant["position"]) * [1.0, 1.0, 0.0]
-    corners = in_trunk(plant, trunk_corners(record.robot, plant))
-    chains = in_trunk(plant, leg_chains(record.robot, plant))
-    outline = np.concatenate([corners[0], chains[0, :, -1]])
-    reach = REACH * float(np.linalg.norm(np.ptp(outline, axis=0)[:2]))
-    lines = _lines(ground, track, reach)
+    still, chains = still_parts(record.robot, plant)
+    reach = reach_of(still, chains)
     arrays = {
         "chains": chains[:, :, 1:],
         "force": plant["foot_force"],
-        "ground": _joined(ground, [points for points in lines if not _is_landmark(points)]),
-        "landmarks": _joined(ground, [points for points in lines if _is_landmark(points)]),
+        **ground_lines(ground, plant["position"], reach),
     }
     exact = {
         "position": plant["position"],
         "rpy": plant["rpy"],
         "focus": metrics.smooth(record.signals["position"])[at],
-        "hips": chains[0, :, 0],
-        "corners": corners[0],
+        **still,
     }
     return {
-        "legs": list(record.legs),
-        "colours": list(run.colours.values()),
         "count": len(at),
         "opensAt": 0 if opens is None else int(np.searchsorted(at, opens)),
-        "weight": record.mass * metrics.GRAVITY,
-        "reach": reach,
-        "radius": record.robot.contact.foot_radius,
-        "normal": ground.rotation()[:, 2].tolist(),
         "stance": packed(run.standing[at], "u1"),
+        **fixed_data(record.robot, record.mass, ground, reach),
         "arrays": {name: Signal(values) for name, values in arrays.items()}
         | {name: Signal(values, exact=True) for name, values in exact.items()},
+    }
+
+
+def still_parts(robot: RobotDescription, plant: Plant) -> tuple[dict[str, Array], Array]:
+    """What stands still in the frame of the trunk, and the chains of the legs in it.
+
+    Args:
+        robot: the robot.
+        plant: its signals, each with the shape (T, ...).
+
+    Returns:
+        ``hips`` (n, 3) and ``corners`` (8, 3) of the trunk [m]; and the joints of every leg,
+        shape (T, n, 4, 3) [m].
+    """
+    chains = in_trunk(plant, leg_chains(robot, plant))
+    corners = in_trunk(plant, trunk_corners(robot, plant))
+    return {"hips": chains[0, :, 0], "corners": corners[0]}, chains
+
+
+def reach_of(still: Mapping[str, Array], chains: Array) -> float:
+    """How far the ground is drawn around the robot [m]; arguments are those of still_parts."""
+    outline = np.concatenate([still["corners"], chains[0, :, -1]])
+    return REACH * float(np.linalg.norm(np.ptp(outline, axis=0)[:2]))
+
+
+def fixed_data(
+    robot: RobotDescription, mass: float, ground: Ground, reach: float
+) -> dict[str, Any]:
+    """What the animation needs to know once, without arrays.
+
+    Args:
+        robot: the robot.
+        mass: of the robot with its payload [kg].
+        ground: the ground.
+        reach: how far it is drawn [m].
+    """
+    legs = [leg.name for leg in robot.legs]
+    return {
+        "legs": legs,
+        "colours": list(leg_colours(legs).values()),
+        "weight": mass * metrics.GRAVITY,
+        "reach": reach,
+        "radius": robot.contact.foot_radius,
+        "normal": ground.rotation()[:, 2].tolist(),
+    }
+
+
+def ground_lines(ground: Ground, position: Array, reach: float) -> dict[str, Array]:
+    """Lines of the ground around a path, as points in the world with NaN between two lines.
+
+    Args:
+        ground: the ground.
+        position: of the trunk in the world [m], shape (T, 3).
+        reach: how far the ground is drawn around it [m].
+
+    Returns:
+        ``ground`` and, of lines that are drawn stronger, ``landmarks``.
+    """
+    lines = _lines(ground, in_ground(ground, position) * [1.0, 1.0, 0.0], reach)
+    return {
+        "ground": _joined(ground, [points for points in lines if not _is_landmark(points)]),
+        "landmarks": _joined(ground, [points for points in lines if _is_landmark(points)]),
     }
 
 

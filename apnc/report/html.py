@@ -49,14 +49,13 @@ def page(
         assert environment.loader is not None
         return environment.loader.get_source(environment, name)[0]
 
+    plotting = [PLOTLY.read_text(encoding="utf-8"), source("plots.js")] if figures else []
     drawn = {"figures": [figure.to_dict() for figure in figures], "dark": DARK}
     return environment.get_template(template).render(
         figures=figures,
         css=source("style.css"),
         core=source("core.js"),
-        scripts=[source(name) for name in scripts],
-        plotly=PLOTLY.read_text(encoding="utf-8") if figures else "",
-        plots=source("plots.js"),
+        scripts=[*(source(name) for name in scripts), *plotting],
         data=script_json({**(data or {}), **drawn}),
         **context,
     )

@@ -34,7 +34,7 @@ def render(record: Record, summary: WalkFeatures) -> str:
     return page(
         "report.html.j2",
         all_figures(run) if run else [],
-        scripts=("scene.js", "animation.js"),
+        scripts=("scene.js", "stage.js", "animation.js") if run else (),
         data=_data(run) if run else {},
         heading=heading(record.experiment),
         facts=facts(record),

@@ -2,11 +2,16 @@
 // Draws one moment of the walk on a canvas: ground, path, trunk, legs, ground forces.
 apnc.Scene = class {
   constructor(canvas, source) {
-    Object.assign(this, source, { canvas, n: source.legs.length, zoom: 1, stance: apnc.unpack(source.stance, Uint8Array) });
+    Object.assign(this, source, { canvas, n: source.legs.length, zoom: 1, stance: apnc.unpack(source.stance || "", Uint8Array) });
     for (const [name, text] of Object.entries(source.arrays)) this[name] = apnc.array(text);
+    this.begin();
+    this.view("3d");
+  }
+
+  begin() {
+    this.time = apnc.time;
     this.above = this.focus[2] - this.track(0)[2];
     this.prints = this.footprints();
-    this.view("3d");
   }
 
   // Relative to a heading, so that the side view stays one after a turn.
@@ -22,6 +27,13 @@ apnc.Scene = class {
       for (let leg = 0; leg < this.n; leg++) if (stands(i, leg) && !stands(i - 1, leg)) list.push({ i, leg, place: this.sole(i, leg) });
     }
     return list;
+  }
+
+  // The last sample at a time or before it, by bisection.
+  sampleAt(t) {
+    let low = 0, high = this.count - 1;
+    while (low < high) { const middle = (low + high + 1) >> 1; if (this.time[middle] <= t + 1e-6) low = middle; else high = middle - 1; }
+    return low;
   }
 
   vector(array, i) { return [array[3 * i], array[3 * i + 1], array[3 * i + 2]]; }
