@@ -1,0 +1,75 @@
+"""The robots of the gallery as data, and where their model files lie."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, distribution
+from pathlib import Path
+from typing import Final
+
+FILE: Final = Path(__file__).with_name("robots.toml")
+
+
+@dataclass(frozen=True)
+class GalleryRobot:
+    """A robot of the gallery.
+
+    Args:
+        name: of its files.
+        title: its name on the page.
+        package: that holds its model file.
+        file: the model file, below the folder of the package.
+        licence: of the model file.
+        pose: about which it walks, see ``import_robot``; the rule's stance if empty.
+    """
+
+    name: str
+    title: str
+    package: str
+    file: str
+    licence: str
+    pose: str = ""
+
+    @property
+    def kind(self) -> str:
+        """Format of the model file."""
+        return "URDF" if self.file.endswith(".urdf") else "MJCF"
+
+
+def robots(names: Sequence[str] = ()) -> list[GalleryRobot]:
+    """Robots of the gallery, the lightest first; all of them if none is named.
+
+    Raises:
+        ValueError: no such robot.
+    """
+    table = tomllib.loads(FILE.read_text("utf-8"))
+    found = {
+        entry["name"]: GalleryRobot(
+            **{**entry, "file": f"{table['folders'][entry['package']]}/{entry['file']}"}
+        )
+        for entry in table["robots"]
+    }
+    for name in names:
+        if name not in found:
+            raise ValueError(f"robot is {name!r}; allowed: {', '.join(found)}")
+    return [robot for name, robot in found.items() if not names or name in names]
+
+
+def model_of(robot: GalleryRobot) -> tuple[Path, str]:
+    """Model file of a robot, and the version of its package.
+
+    Raises:
+        ValueError: the package is not installed, or has no such file.
+    """
+    try:
+        package = distribution(robot.package)
+    except PackageNotFoundError:
+        raise ValueError(
+            f"{robot.package} is not installed: pip install --group robots in a checkout"
+        ) from None
+    path = Path(str(package.locate_file(robot.file)))
+    if not path.is_file():
+        raise ValueError(f"{robot.package} {package.version} has no file {robot.file}")
+    return path, package.version

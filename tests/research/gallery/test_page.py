@@ -1,0 +1,110 @@
+"""The gallery's page says of each robot which aims it misses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from research.gallery import page, store
+from research.gallery.measure import Walk
+from research.gallery.robots import GalleryRobot
+
+MIS = (0.1, 0.2)
+DOG = GalleryRobot("dog", "Dog", "kennel", "dog.urdf", "MIT")
+ABOUT: dict[str, Any] = {
+    "robots": {"dog": {"mass": 12.0, "leg_length": 0.4, "version": "1.2", "minutes": 9.6}},
+    "refused": {"cat": "its knees bend the other way"},
+    "commit": "0123456", "processor": "a processor", "seeds": 20, "first_seed": 7,
+}  # fmt: skip
+
+
+def made_up() -> list[Walk]:
+    """Walks that reach every aim, those at which it is just reached."""
+    return [
+        Walk("dog", body, label, mi, seed, "complete", True, 3.0, 2.0 * mi, 0.05, 0.18)
+        for body in ("own", "varied")
+        for label in ("ANC", "APC")
+        for mi in MIS
+        for seed in range(20)
+    ]
+
+
+def failed(walks: list[Walk], count: int, **of: Any) -> list[Walk]:
+    """The walks, with so many of those of a kind not strict."""
+    found = []
+    for walk in walks:
+        hit = count > 0 and all(getattr(walk, name) == value for name, value in of.items())
+        count -= hit
+        found.append(replace(walk, strict=False) if hit else walk)
+    return found
+
+
+def changed(walks: list[Walk], mi: float, **values: Any) -> list[Walk]:
+    return [replace(walk, **values) if walk.mi == mi else walk for walk in walks]
+
+
+def test_aims_that_are_just_reached_are_reached() -> None:
+    walks = failed(made_up(), 2, controller="APC", mi=0.2, body="own")
+    assert page.missed(walks) == []
+    # varied bodies show the margin, and are no aim
+    assert page.missed(failed(walks, 9, body="varied")) == []
+
+
+def test_each_aim_can_be_missed() -> None:
+    walks = made_up()
+    assert page.missed(failed(walks, 1, controller="ANC", mi=0.2, body="own")) == [
+        "ANC 19/20 at MI 0.2"
+    ]
+    assert page.missed(failed(walks, 3, controller="APC", mi=0.1, body="own")) == [
+        "APC 17/20 at MI 0.1"
+    ]
+    assert page.missed(changed(walks, 0.2, lift_share=0.049)) == ["lift 4.9 %"]
+    assert page.missed(changed(walks, 0.1, slip_share=0.19)) == ["slip 19.0 %"]
+    assert page.missed(changed(walks, 0.1, slip_share=None)) == ["slip -"]
+    assert page.missed(changed(walks, 0.2, speed_m_per_s=0.2)) == [
+        "speed does not grow: 0.20, 0.20"
+    ]
+
+
+def test_the_page_has_a_row_for_a_robot_and_a_line_for_one_that_was_refused(
+    tmp_path: Path,
+) -> None:
+    cat = replace(DOG, name="cat", title="Cat")
+    (tmp_path / "dog.webp").touch()
+    text = page.text([DOG, cat], ABOUT, made_up(), tmp_path)
+    row = "| Dog | 12.0 | 0.40 | URDF, kennel 1.2 | MIT | 10 | 0.1 to 0.2 | 40/40 | 40/40 |"
+    assert row in text
+    assert "| 0.20 to 0.40 | 5.0 % | 18.0 % | nothing |" in text
+    assert "**1 of 1 robots reach every aim: Dog.**" in text
+    assert "- Cat: its knees bend the other way" in text
+    assert f"(../pictures/{tmp_path.name}/dog.webp)" in text and "cat.webp" not in text
+    assert "commit 0123456" in text and "| 18 of 20 seeds at every MI |" in text
+
+
+def test_walks_are_stored_and_read_again(tmp_path: Path) -> None:
+    walks = [*made_up()[:2], replace(made_up()[0], strict=False, convergence_time_s=None)]
+    store.write_walks(tmp_path / "a.csv.gz", walks)
+    assert store.read_walks(tmp_path / "a.csv.gz") == walks
+    store.write_walks(tmp_path / "b.csv.gz", walks)
+    assert (tmp_path / "a.csv.gz").read_bytes() == (tmp_path / "b.csv.gz").read_bytes()
+
+
+def test_notes_of_a_robot_leave_the_others(tmp_path: Path) -> None:
+    store.add_note(tmp_path, "dog", {"minutes": 3})
+    store.add_note(tmp_path, "cat", {"minutes": 4})
+    store.add_note(tmp_path, "dog", {"minutes": 5})
+    assert store.notes_in(tmp_path) == {"dog": {"minutes": 5}, "cat": {"minutes": 4}}
+
+
+@pytest.mark.skipif(not store.WALKS.exists(), reason="nothing was measured")
+def test_the_page_in_the_documentation_is_that_of_the_stored_walks() -> None:
+    from research.gallery.__main__ import PAGE, PICTURES  # noqa: PLC0415
+    from research.gallery.robots import robots  # noqa: PLC0415
+
+    text = page.text(
+        robots(), store.read_json(store.ABOUT), store.read_walks(store.WALKS), PICTURES
+    )
+    assert PAGE.read_text("utf-8") == text
