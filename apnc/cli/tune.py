@@ -31,7 +31,7 @@ def tune(
     ),
     seed: Annotated[int, Option(help="Seed of the optimiser and of all runs.")] = 1,
     mi: Annotated[
-        str | None, Option(help="MI range to aim at, as 0.06,0.28. The search may scale it.")
+        str | None, Option(help="MI range to aim at, as 0.08,0.28. The search may scale it.")
     ] = None,
     keep_servo: Annotated[
         bool, Option("--keep-servo", help="Leave stiffness and damping of the servos as they are.")
@@ -95,7 +95,7 @@ def _range(text: str) -> tuple[float, float]:
     try:
         low, high = (float(part) for part in text.split(","))
     except ValueError:
-        raise ValueError(f"--mi is {text}; allowed: two numbers as 0.06,0.28") from None
+        raise ValueError(f"--mi is {text}; allowed: two numbers as 0.08,0.28") from None
     return low, high
 
 

@@ -14,7 +14,7 @@ from apnc_core.interface import Parameters
 from apnc_core.types import Array
 from apnc_plant.robot import RobotDescription
 
-MI_AIMED: Final = (0.06, 0.28)
+MI_AIMED: Final = (0.08, 0.28)
 """MI range that is aimed at before it is scaled: that of the paper's gaits, slow to fast."""
 
 
@@ -48,7 +48,7 @@ class DesignVariable(NamedTuple):
 
 
 STANCE: Final = (
-    DesignVariable("stance.up", -0.15, 0.12),
+    DesignVariable("stance.up", -0.15, 0.3),
     DesignVariable("stance.back", -0.2, 0.2),
     DesignVariable("stance.apart", -0.12, 0.12),
     DesignVariable("stance.fore_up", -0.08, 0.08),

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -17,10 +15,18 @@ from apnc_core.types import Array
 _CHECK: Final = "check"
 """In place of the number of a candidate: the favourite of the generation was checked."""
 
+_FIRST: Final = ("generation", "candidate", "cost")
+"""Columns before those of the design variables."""
+
+Row = tuple[int, str, float, list[float]]
+"""Generation, number of the candidate or ``check``, cost, and point of a candidate."""
+
 
 @dataclass
 class Log:
     """A CSV file whose first line says what search it is of.
+
+    The file is begun with the first cost, so that a search that has found none leaves no file.
 
     Attributes:
         path: the file; None: nothing is written.
@@ -30,12 +36,13 @@ class Log:
 
     def __post_init__(self) -> None:
         """Nothing is read until :meth:`begin`."""
-        self._costs: dict[int, list[float]] = {}
-        self._points: dict[int, list[list[float]]] = {}
+        self._head = ""
+        # by number, since a generation that was cut short is walked and written again
+        self._known: dict[int, dict[str, tuple[float, list[float]]]] = {}
         self._checks: dict[int, float] = {}
 
     def begin(self, names: Sequence[str], search: Mapping[str, Any], *, resume: bool) -> None:
-        """Begin the file, or read what it holds.
+        """Read what the file holds; if there is none, prepare one.
 
         Args:
             names: of the design variables.
@@ -48,35 +55,28 @@ class Log:
         """
         if self.path is None:
             return
-        head = "# " + json.dumps(search, sort_keys=True)
-        if resume and self.path.exists():
-            self._read(head)
+        self._head = f"# {json.dumps(search, sort_keys=True)}\n{_line([*_FIRST, *names])}"
+        if not self.path.exists():
             return
-        if self.path.exists():
-            raise ValueError(
-                f"{self.path} is the log of another search; allowed: --resume, another --output, or "
-                "to remove it"
-            )
-        columns = ["generation", "candidate", "cost", *names]
-        self.path.write_text(f"{head}\n{_line(columns)}", encoding="utf-8")
-
-    def _read(self, head: str) -> None:
-        assert self.path is not None
-        first, *lines = self.path.read_text(encoding="utf-8").splitlines(keepends=True)
-        if first.strip() != head:
-            raise ValueError(
-                f"{self.path} is the log of a search with other settings: {first.strip()}"
-            )
-        whole = [line for line in lines if line.endswith("\n")]  # a kill may cut the last one short
-        for row in csv.DictReader(whole):
-            generation, number, cost, *x = row.values()
+        if not resume:
+            raise ValueError(f"{self.path} is the log of an earlier search; allowed: --resume")
+        head, rows = _content(self.path)
+        own, theirs = _first_line(self._head), _first_line(head)
+        for name, value in own.items():
+            if theirs.get(name) != value:
+                raise ValueError(
+                    f"{self.path} is of another search: {name} was {json.dumps(theirs.get(name))} "
+                    f"and is {json.dumps(value)}"
+                )
+        if head != self._head:
+            raise ValueError(f"{self.path} is of a search of other numbers")
+        for generation, number, cost, x in rows:
             if number == _CHECK:
-                self._checks[int(generation)] = float(cost)
-                continue
-            self._costs.setdefault(int(generation), []).append(float(cost))
-            self._points.setdefault(int(generation), []).append([float(value) for value in x])
-        if len(whole) < len(lines):
-            self.path.write_text(first + "".join(whole), encoding="utf-8")
+                self._checks[generation] = cost
+            else:
+                self._known.setdefault(generation, {})[number] = cost, x
+        # a kill may have cut the last line short
+        _end_in_whole_lines(self.path)
 
     def costs(self, generation: int, points: Sequence[Array]) -> list[float] | None:
         """Costs of a generation; None if the log does not have all of them.
@@ -84,12 +84,13 @@ class Log:
         Raises:
             ValueError: the log has other points, so that it is of another search.
         """
-        known = self._points.get(generation, [])
+        known = list(self._known.get(generation, {}).values())
         if len(known) < len(points):
             return None
-        if not np.allclose(known, np.asarray(points), rtol=0.0, atol=1e-9):
+        found = [x for _, x in known]
+        if len(known) > len(points) or not np.allclose(found, points, rtol=0.0, atol=1e-9):
             raise ValueError(f"{self.path} has other candidates in generation {generation}")
-        return self._costs[generation]
+        return [cost for cost, _ in known]
 
     def write(self, generation: int, points: Sequence[Array], costs: Sequence[float]) -> None:
         """Add a generation."""
@@ -110,12 +111,67 @@ class Log:
             self._add(_line([generation, _CHECK, repr(cost)]))
 
     def _add(self, text: str) -> None:
-        if self.path is not None:
-            with self.path.open("a", encoding="utf-8") as file:
-                file.write(text)
+        if self.path is None:
+            return
+        begun = self.path.exists()
+        with self.path.open("a", encoding="utf-8") as file:
+            file.write(text if begun else self._head + text)
+
+
+def read_rows(path: Path) -> list[Row]:
+    """Rows of a log, in their order.
+
+    Raises:
+        ValueError: the file is no log of a search.
+    """
+    return _content(path)[1]
+
+
+def _content(path: Path) -> tuple[str, list[Row]]:
+    """First two lines and rows of a log. A line that a kill cut short is left out."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    except UnicodeDecodeError:
+        raise ValueError(f"{path} is no log of a search") from None
+    head = "".join(lines[:2])
+    columns = lines[1].strip().split(",") if len(lines) > 1 else []
+    _first_line(head, path)
+    if tuple(columns[: len(_FIRST)]) != _FIRST:
+        raise ValueError(f"{path} is no log of a search: line 2 has no columns of one")
+    rows: list[Row] = []
+    for number, line in enumerate(lines[2:], start=3):
+        if line.endswith("\n"):
+            try:
+                rows.append(_row(line.strip().split(","), len(columns)))
+            except ValueError:
+                raise ValueError(f"{path}, line {number} is no row of a search") from None
+    return head, rows
+
+
+def _first_line(head: str, path: Path | None = None) -> dict[str, Any]:
+    """What search a log is of."""
+    try:
+        found = json.loads(head.partition("\n")[0].removeprefix("#"))
+    except json.JSONDecodeError:
+        found = None
+    if not isinstance(found, dict):
+        raise ValueError(f"{path} is no log of a search: line 1 does not say of which")
+    return found
+
+
+def _row(values: Sequence[str], columns: int) -> Row:
+    """A row; ValueError for one that is none."""
+    generation, number, cost, *x = values
+    if len(values) != (len(_FIRST) if number == _CHECK else columns):
+        raise ValueError
+    return int(generation), number, float(cost), [float(value) for value in x]
+
+
+def _end_in_whole_lines(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    if not text.endswith("\n"):
+        path.write_text(text[: text.rindex("\n") + 1], encoding="utf-8")
 
 
 def _line(values: Sequence[Any]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerow(values)
-    return text.getvalue()
+    return ",".join(map(str, values)) + "\n"

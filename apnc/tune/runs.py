@@ -17,7 +17,7 @@ from apnc.tune.design import Candidate, Start
 from apnc.varied import varied
 from apnc_plant.conditions import Conditions
 from apnc_plant.robot import RobotDescription
-from apnc_plant.step import own_step
+from apnc_plant.step import longest_step, own_step
 
 WALK_S: Final = 15.0
 """Length of a run of the search [s]."""
@@ -46,7 +46,13 @@ MI_COUNT: Final = 5
 BODIES: Final = 3
 """Number of bodies of a generation; runs share them, since one takes milliseconds to make."""
 
-_STEPS: Final = 8
+COARSE: Final = 0.7
+"""Integration step of a search, as a share of the longest one that follows the motion [1].
+
+Checks and validations walk with the step that a walk has.
+"""
+
+_STEPS: Final = 4
 """Integration steps of a tick are a multiple of this, so that candidates walk side by side."""
 
 _SEEDS: Final = 2**31
@@ -102,6 +108,7 @@ def of_generation(start: Start, candidates: Sequence[Candidate], seed: int) -> l
             _task(
                 start, each, kind, share, WALK_S, conditions,
                 seed=seeds[k], body=bodies[k % BODIES],
+                    coarse=True,
             )
             for k, (kind, share, conditions) in enumerate(plan)
         ])  # fmt: skip
@@ -166,6 +173,7 @@ def _task(
     *,
     seed: int,
     body: RobotDescription | None = None,
+    coarse: bool = False,
 ) -> Task:
     experiment = Experiment(
         robot=body or each.robot,
@@ -177,7 +185,7 @@ def _task(
         settings={"robot_weight": each.robot.weight},
         conditions=conditions,
         rate=start.rate,
-        step=shared_step(each.robot, start.rate),
+        step=shared_step(each.robot, start.rate, coarse=coarse),
         engine="compiled",
     )
     return Task(kind, share, experiment)
@@ -196,12 +204,17 @@ def _off(robot: RobotDescription, seed: int) -> RobotDescription:
     )
 
 
-def shared_step(robot: RobotDescription, rate: float) -> float:
+def shared_step(robot: RobotDescription, rate: float, *, coarse: bool = False) -> float:
     """An integration step for a robot and those that are nearly like it [s].
+
+    Args:
+        robot: the robot.
+        rate: update rate of its controller [Hz].
+        coarse: the step of a search; else that of a walk, or a little shorter.
 
     Raises:
         ValueError: the robot needs too short a step.
     """
-    tick = 1.0 / rate
-    wanted = tick / (own_step(robot) / (1.0 + MARGIN))
-    return tick / (_STEPS * max(2, math.ceil(wanted / _STEPS - 1e-9)))
+    tick, own = 1.0 / rate, own_step(robot)
+    step = max(own, COARSE * longest_step(robot)) if coarse else own
+    return tick / (_STEPS * math.ceil(tick / step / _STEPS - 1e-9))

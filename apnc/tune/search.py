@@ -51,6 +51,8 @@ class Count:
         generations, candidates: number of them.
         simulated: time that robots walked [s].
         wall: time that it took [s].
+        resumed: number of candidates whose cost the log had.
+        checked: number of candidates before the last check; that many find the same best again.
     """
 
     generations: int = 0
@@ -58,6 +60,7 @@ class Count:
     simulated: float = 0.0
     wall: float = 0.0
     resumed: int = 0
+    checked: int = 0
     begun: float = field(default_factory=time.perf_counter)
 
 
@@ -111,7 +114,8 @@ def search(
             strategy.tell(points, costs)
             count.generations += 1
             count.candidates += len(points)
-            if count.generations % CHECK_EVERY == 0 or candidates == count.candidates:
+            last = candidates is not None and count.candidates >= candidates
+            if count.generations % CHECK_EVERY == 0 or last:
                 found = checks.of(strategy.favourite, log)
                 best = min(best, found, key=lambda each: each.cost)
             count.wall = time.perf_counter() - count.begun
@@ -148,12 +152,14 @@ class _Checks:
         found = candidate(self._start, x)
         known = log.check(self._count.generations)
         if known is not None and self.best is not None and known >= self.best.cost:
+            self._count.checked = self._count.candidates
             return self.best
         tasks = of_check(self._start, found)
         runs = tuple(self._evaluator(tasks))
         self._count.simulated += seconds(tasks)
         checked = Best(tuple(map(float, x)), found, runs, total(runs))
         log.write_check(self._count.generations, checked.cost)
+        self._count.checked = self._count.candidates
         if self.best is None or checked.cost < self.best.cost:
             self.best = checked
         return checked

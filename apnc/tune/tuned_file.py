@@ -7,9 +7,10 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from apnc.extras import missing
+from apnc_core.interface import Parameters
 from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
 
 DIGITS: Final = 5
@@ -37,8 +38,7 @@ def tuned_text(file: str | Path, robot: RobotDescription, comments: Sequence[str
     document: Any = tomlkit.parse(path_of(file).read_text(encoding="utf-8"))
     present = load_robot(file)
     legs = {table["name"]: table for table in document["legs"]}
-    for place, value in changes(present, robot):
-        first, *rest = place
+    for (first, *rest), _, value in changes(present, robot):
         if first == "legs":
             table, rest = legs[rest[0]], rest[1:]
             common = document.get("leg", {})
@@ -69,30 +69,47 @@ def read_back(text: str) -> RobotDescription:
         return load_robot(path)
 
 
-def changes(before: Any, after: Any) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """Places and values of what differs between two robots or parts, as a file has them."""
+class Change(NamedTuple):
+    """A number that differs between two robots, as a file has it.
+
+    Args:
+        place: its table and key, e.g. ``("legs", "RF", "femur_angle")``.
+        old: what it was; what holds without a number of the file, if the file had none.
+        new: what it is.
+    """
+
+    place: tuple[str, ...]
+    old: Any
+    new: Any
+
+
+def changes(before: Any, after: Any) -> Iterator[Change]:
+    """What differs between two robots or parts."""
     for each in fields(after):
         old, new = getattr(before, each.name), getattr(after, each.name)
         if old == new:
             continue
         if is_dataclass(new) and type(old) is type(new):
-            inside = changes(old, new)
+            inside = list(changes(old, new))
         elif each.name == "legs":
-            pairs = zip(old, new, strict=True)
-            inside = (
-                ((leg.name, *place), value)
-                for was, leg in pairs
-                for place, value in changes(was, leg)
-            )
+            inside = [
+                change._replace(place=(leg.name, *change.place))
+                for was, leg in zip(old, new, strict=True)
+                for change in changes(was, leg)
+            ]
         elif each.name == "controller":
-            inside = (
-                ((name,), _rounded(value)) for name, value in new.items() if old.get(name) != value
-            )
+            default = Parameters()
+            inside = [
+                Change((name,), old.get(name, getattr(default, name)), _rounded(value))
+                for name, value in new.items()
+                if old.get(name) != value
+            ]
         else:
-            in_degrees = each.name in _ANGLES
-            yield (each.name,), _rounded(math.degrees(new) if in_degrees else new)
+            if each.name in _ANGLES:
+                old, new = math.degrees(old), math.degrees(new)
+            yield Change((each.name,), _rounded(old), _rounded(new))
             continue
-        yield from (((each.name, *place), value) for place, value in inside)
+        yield from (change._replace(place=(each.name, *change.place)) for change in inside)
 
 
 def _rounded(value: Any) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import importlib.util
 import shlex
 import time
 from collections.abc import Callable
@@ -10,6 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
+from apnc.extras import missing
 from apnc.loop.batch import Stop
 from apnc.tune.costs import target
 from apnc.tune.design import MI_AIMED, Candidate, Start, variables_for
@@ -46,6 +48,8 @@ class Tuned:
     Args:
         text: its robot file.
         robot: the same as a robot.
+        before: the robot of the file from which the search began.
+        best: the best candidate, with its runs in the check of the search.
         count: how much was tried.
         validation: what it does; None if it was interrupted before that was walked.
         command: what finds it again.
@@ -53,6 +57,8 @@ class Tuned:
 
     text: str
     robot: RobotDescription
+    before: RobotDescription
+    best: Best
     count: Count
     validation: Validation | None
     command: str
@@ -81,8 +87,8 @@ def tune(
 
     Args:
         robot: a robot file, or the name of a shipped robot.
-        minutes: how long to search [min]; ``MINUTES`` if neither this nor ``candidates`` is given.
-        candidates: how many candidates to try.
+        minutes: how long to search [min], but until something was tried; ``MINUTES`` if neither this nor ``candidates`` is given.
+        candidates: how many candidates to try; 0: the robot of the file alone.
         seed: of the optimiser and all runs, 1 to 2^20.
         mi: MI range that is aimed at; the search may scale it.
         allowed: what may be changed; the defaults of :class:`Allowed` if omitted.
@@ -101,10 +107,11 @@ def tune(
         Stopped: it was stopped before anything was found.
     """
     _check(minutes, candidates, seed, mi, workers, seeds)
+    _check_packages()
     allowed = allowed or Allowed()
     begun, description = time.perf_counter(), load_robot(robot)
     target(len(description.legs))
-    limit = None if candidates and minutes is None else 60.0 * (minutes or MINUTES)
+    limit = None if candidates is not None and minutes is None else 60.0 * (minutes or MINUTES)
     start = Start(
         description,
         description.rate or 1.0 / float(variable_named("Ts").start or 0.0),
@@ -122,13 +129,18 @@ def tune(
         resume=resume,
     )  # fmt: skip
 
+    found_any = False
+
     def over() -> bool:
-        return stop() or (limit is not None and time.perf_counter() - begun > limit)
+        late = found_any and limit is not None and time.perf_counter() - begun > limit
+        return stop() or late
 
     def told(best: Best, count: Count) -> None:
+        nonlocal found_any
+        found_any = True
         shares = [count.candidates / candidates] if candidates else []
         shares += [(time.perf_counter() - begun) / limit] if limit else []
-        progress(best, count, min(1.0, max(shares)))
+        progress(best, count, min(1.0, max(shares, default=1.0)))
 
     with cluster(scheduler) as client:
         evaluator = Evaluator(start, workers, client, over)
@@ -144,7 +156,7 @@ def tune(
             validation = validated(start, candidate, replace(evaluator, stop=stop), seeds)
         except Stopped:
             validation = None
-    return Tuned(text, tuned, count, validation, again)
+    return Tuned(text, tuned, description, best, count, validation, again)
 
 
 def _usual(candidate: Candidate) -> float:
@@ -158,8 +170,8 @@ def _check(
 ) -> None:  # fmt: skip
     if minutes is not None and not 0.0 < minutes < 1e5:
         raise ValueError(f"minutes = {minutes}; allowed: above 0, below 100000")
-    if candidates is not None and candidates < 1:
-        raise ValueError(f"candidates = {candidates}; allowed: 1 and more")
+    if candidates is not None and candidates < 0:
+        raise ValueError(f"candidates = {candidates}; allowed: 0 and more")
     if not 1 <= seed <= 2**20:  # the optimiser takes 0 for the time of day
         raise ValueError(f"seed = {seed}; allowed: 1 to {2**20}")
     limits = variable_named("MI")
@@ -172,10 +184,17 @@ def _check(
         raise ValueError(f"seeds = {seeds}; allowed: 1 and more")
 
 
+def _check_packages() -> None:
+    """Look for the packages of the extra before anything is computed."""
+    for package in ("cma", "tomlkit"):
+        if importlib.util.find_spec(package) is None:
+            raise RuntimeError(missing(package, "tune"))
+
+
 def _command(
     robot: str | Path, seed: int, count: Count, mi: tuple[float, float], allowed: Allowed
 ) -> str:
-    words: list[Any] = ["apnc", "tune", robot, "--candidates", count.candidates, "--seed", seed]
+    words: list[Any] = ["apnc", "tune", robot, "--candidates", count.checked, "--seed", seed]
     if mi != MI_AIMED:
         words += ["--mi", f"{mi[0]:g},{mi[1]:g}"]
     words += ([] if allowed.servo else ["--keep-servo"]) + (["--body"] if allowed.body else [])
