@@ -22,6 +22,7 @@ STUDIES: Final[Registry] = {
             (ROBOT, "number", "level", "walk"),
             "research",
         ),
+        Entry("limits", "Limits of the claim", "", (ROBOT, "case"), "research"),
         Entry(
             "contact", "Integration step of the ground contact", "", ("depth", "steps"), "research"
         ),

@@ -1,4 +1,4 @@
-"""The command line of the study."""
+"""``python -m research.robustness``."""
 
 from research.command import main
 
