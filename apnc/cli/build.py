@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from typer import Option
 
+from apnc.cli import completion as complete
 from apnc.cli.console import apart, compiling, file_option, given, say, status, writable
 from apnc.controllers import CONTROLLERS, named_controller
 
@@ -27,23 +28,43 @@ def build(
     ] = None,
     robot: Annotated[
         str | None,
-        Option(help="Robot name or TOML file. Default: the shipped robot with --legs legs."),
+        Option(
+            help="Robot name or TOML file. Default: the shipped robot with --legs legs.",
+            autocompletion=complete.robots,
+        ),
     ] = None,
     naming: Annotated[
-        str, Option(help="Names of variables: structured (leg[1].grf) or flat (leg1_grf).")
+        str,
+        Option(
+            help="Names of variables: structured (leg[1].grf) or flat (leg1_grf).",
+            autocompletion=complete.one_of("structured", "flat"),
+        ),
     ] = "structured",
-    fmi: Annotated[int, Option(help="Version of the FMI standard, 2 or 3.")] = 2,
+    fmi: Annotated[
+        int,
+        Option(
+            help="Version of the FMI standard, 2 or 3.", autocompletion=complete.one_of("2", "3")
+        ),
+    ] = 2,
     platform: Annotated[
         list[str] | None,
         Option(
             help="Platform such as win64, or host. May be repeated. Default: all; without the "
-            "compiler, those of the FMU that came with the package."
+            "compiler, those of the FMU that came with the package.",
+            autocompletion=complete.platforms,
         ),
     ] = None,
-    preset: Annotated[str, Option(help="Start values of robot, lilibot or paper.")] = "robot",
+    preset: Annotated[
+        str,
+        Option(help="Start values of robot, lilibot or paper.", autocompletion=complete.presets),
+    ] = "robot",
     setting: Annotated[
         list[str] | None,
-        Option("--set", help="Start value NAME=VALUE of a parameter. May be repeated."),
+        Option(
+            "--set",
+            help="Start value NAME=VALUE of a parameter. May be repeated.",
+            autocompletion=complete.settings,
+        ),
     ] = None,
     params: Annotated[
         Path | None,
@@ -55,10 +76,18 @@ def build(
     ] = None,
     gait: Annotated[Path | None, Option(help="File of a stored gait to start with.")] = None,
     controller: Annotated[
-        str | None, Option(help=f"Controller to start with, one of {_CONTROLLERS}.")
+        str | None,
+        Option(
+            help=f"Controller to start with, one of {_CONTROLLERS}.",
+            autocompletion=complete.controllers,
+        ),
     ] = None,
     enumerations: Annotated[
-        str, Option(help="How enumerations are declared: enumeration or integer.")
+        str,
+        Option(
+            help="How enumerations are declared: enumeration or integer.",
+            autocompletion=complete.one_of("enumeration", "integer"),
+        ),
     ] = "enumeration",
     reals: Annotated[bool, Option("--reals", help="Declare every variable as a Real.")] = False,
     release: Annotated[

@@ -10,14 +10,24 @@ from typing import Annotated, Final
 
 from typer import Option
 
+from apnc.cli import completion as complete
 from apnc.cli.console import apart, given, say, writable
 
 FORMATS: Final = ("mjcf", "urdf")
 
 
 def export_robot(
-    form: Annotated[str, Option("--format", help="Format of the file: mjcf or urdf.")] = "mjcf",
-    robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
+    form: Annotated[
+        str,
+        Option(
+            "--format",
+            help="Format of the file: mjcf or urdf.",
+            autocompletion=complete.one_of("mjcf", "urdf"),
+        ),
+    ] = "mjcf",
+    robot: Annotated[
+        str, Option(help="Robot name or TOML file.", autocompletion=complete.robots)
+    ] = "lilibot",
     output: Annotated[
         str | None,
         Option(
@@ -26,12 +36,17 @@ def export_robot(
         ),
     ] = None,
     servo: Annotated[
-        str | None, Option(help="Actuators of MJCF: position or dcmotor. Default: position.")
+        str | None,
+        Option(
+            help="Actuators of MJCF: position or dcmotor. Default: position.",
+            autocompletion=complete.one_of("position", "dcmotor"),
+        ),
     ] = None,
     root: Annotated[
         str | None,
         Option(
-            help="Root link of URDF: trunk, or base, which has no mass, for KDL. Default: trunk."
+            help="Root link of URDF: trunk, or base, which has no mass, for KDL. Default: trunk.",
+            autocompletion=complete.one_of("trunk", "base"),
         ),
     ] = None,
 ) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 
 import apnc
+from apnc.cli import completion as complete
 from apnc.cli.console import apart, file_path, say, writable
 from apnc.report import RUN_FILES
 
@@ -27,7 +28,9 @@ def save(
     form: Annotated[
         str,
         typer.Option(
-            "--format", help="Format of the file: json for apnc walk, or ssv for tools of SSP."
+            "--format",
+            help="Format of the file: json for apnc walk, or ssv for tools of SSP.",
+            autocompletion=complete.one_of("json", "ssv"),
         ),
     ] = "json",
 ) -> None:

@@ -14,6 +14,7 @@ import typer
 from typer import Option
 
 import apnc
+from apnc.cli.completion import Completion, axis_of, robots
 from apnc.cli.console import bar, say_file, writable
 from apnc.cli.interrupt import STOP, Interrupted
 from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry, Registry
@@ -48,9 +49,11 @@ def command_of(
     def command(**options: Any) -> None:
         _run(name, axes, studies=studies, **options)
 
-    def option(name: str, kind: Any, default: Any, about: str) -> inspect.Parameter:
-        form = Annotated[kind, Option(f"--{name}", help=about)]
-        return inspect.Parameter(name, _BY_NAME, default=default, annotation=form)
+    def option(
+        option: str, kind: Any, default: Any, about: str, values: Completion | None = None
+    ) -> inspect.Parameter:
+        form = Annotated[kind, Option(f"--{option}", help=about, autocompletion=values)]
+        return inspect.Parameter(option, _BY_NAME, default=default, annotation=form)
 
     parameters = [
         option("trials", int, 20, "Number of seeds per cell of the grid."),
@@ -71,6 +74,7 @@ def command_of(
                 str | None,
                 None,
                 _ABOUT.get(axis, "Values to run, separated by commas. Default: all."),
+                robots if axis == ROBOT else axis_of(studies.get(name), axis),
             )
             for axis in axes
         ),

@@ -9,6 +9,7 @@ from typing import Annotated
 
 from typer import Context, Option
 
+from apnc.cli import completion as complete
 from apnc.cli.console import apart, compiling, file_option, given, say, status, writable
 from apnc.controllers import CONTROLLERS
 
@@ -17,18 +18,34 @@ _NAMING = "Names of variables: structured (leg[1].grf) or flat (leg1_grf)."
 
 
 def build_plant(
-    robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
+    robot: Annotated[
+        str, Option(help="Robot name or TOML file.", autocompletion=complete.robots)
+    ] = "lilibot",
     output: Annotated[
         Path | None, file_option("File to write. Default: the robot's name, LilibotPlant.fmu.")
     ] = None,
-    naming: Annotated[str, Option(help=_NAMING)] = "structured",
-    fmi: Annotated[int, Option(help="Version of the FMI standard, 2 or 3.")] = 2,
+    naming: Annotated[
+        str, Option(help=_NAMING, autocompletion=complete.one_of("structured", "flat"))
+    ] = "structured",
+    fmi: Annotated[
+        int,
+        Option(
+            help="Version of the FMI standard, 2 or 3.", autocompletion=complete.one_of("2", "3")
+        ),
+    ] = 2,
     platform: Annotated[
         list[str] | None,
-        Option(help="Platform such as win64, or host. May be repeated. Default: all."),
+        Option(
+            help="Platform such as win64, or host. May be repeated. Default: all.",
+            autocompletion=complete.platforms,
+        ),
     ] = None,
     enumerations: Annotated[
-        str, Option(help="How enumerations are declared: enumeration or integer.")
+        str,
+        Option(
+            help="How enumerations are declared: enumeration or integer.",
+            autocompletion=complete.one_of("enumeration", "integer"),
+        ),
     ] = "enumeration",
     reals: Annotated[bool, Option("--reals", help="Declare every variable as a Real.")] = False,
 ) -> None:
@@ -51,14 +68,20 @@ def build_system(
     output: Annotated[
         Path | None, file_option("Archive to write. Default: the robot's name, Lilibot.ssp.")
     ] = None,
-    robot: Annotated[str, Option(help="Robot name or TOML file.")] = "lilibot",
-    naming: Annotated[str, Option(help=_NAMING)] = "structured",
+    robot: Annotated[
+        str, Option(help="Robot name or TOML file.", autocompletion=complete.robots)
+    ] = "lilibot",
+    naming: Annotated[
+        str, Option(help=_NAMING, autocompletion=complete.one_of("structured", "flat"))
+    ] = "structured",
     mi: Annotated[
         float | None,
         Option(help="Modulatory input at the start. Default: 0.08, or the robot's own."),
     ] = None,
     seed: Annotated[int, Option(help="Seed of noise, asymmetry and obstacles.")] = 0,
-    condition: Annotated[str, Option(help="Condition, C1 to C4 or S1 to S3.")] = "C1",
+    condition: Annotated[
+        str, Option(help="Condition, C1 to C4 or S1 to S3.", autocompletion=complete.conditions)
+    ] = "C1",
     payload: Annotated[
         float, Option(help="Box on the trunk besides that of the condition [kg].")
     ] = 0,
@@ -67,7 +90,9 @@ def build_system(
     ] = None,
     slope: Annotated[float | None, Option(help="Rise of the ground along x [deg].")] = None,
     turn: Annotated[float, Option(help="Steering, -1 right ... 1 left.")] = 0.0,
-    controller: Annotated[str, Option(help=f"Controller, one of {_CONTROLLERS}.")] = "apnc",
+    controller: Annotated[
+        str, Option(help=f"Controller, one of {_CONTROLLERS}.", autocompletion=complete.controllers)
+    ] = "apnc",
     preset: Annotated[str, Option(help="Parameters of robot, lilibot or paper.")] = "robot",
     rate: Annotated[
         float | None,
@@ -84,7 +109,10 @@ def build_system(
     duration: Annotated[float, Option(help="End of the default experiment [s].")] = 45.0,
     platform: Annotated[
         list[str] | None,
-        Option(help="Platform such as win64, all or host. May be repeated. Default: host."),
+        Option(
+            help="Platform such as win64, all or host. May be repeated. Default: host.",
+            autocompletion=complete.platforms,
+        ),
     ] = None,
 ) -> None:
     """Build a system of controller and robot: an SSP archive, and a folder for other tools."""

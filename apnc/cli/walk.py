@@ -14,6 +14,7 @@ import typer
 from typer import Option
 
 import apnc
+from apnc.cli import completion as complete
 from apnc.cli.browser import open_page
 from apnc.cli.console import (
     apart,
@@ -27,6 +28,7 @@ from apnc.cli.console import (
     writable,
 )
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
+from apnc.cli.live import check_view, viewed
 from apnc.controllers import CONTROLLERS
 from apnc.extras import install_command
 from apnc.loop.push import parse_pushes
@@ -55,7 +57,10 @@ _NAMED: Final = ", ".join(CONDITIONS)
 
 def walk(
     context: typer.Context,
-    robot: Annotated[str | None, Option(help="Robot name or TOML file. Default: lilibot.")] = None,
+    robot: Annotated[
+        str | None,
+        Option(help="Robot name or TOML file. Default: lilibot.", autocompletion=complete.robots),
+    ] = None,
     mi: Annotated[
         str | None,
         Option(
@@ -69,18 +74,27 @@ def walk(
         Option(help="Seed of noise, asymmetry and, with --roughness, obstacles. Default: 0."),
     ] = None,
     controller: Annotated[
-        str | None, Option(help=f"One of {_CONTROLLERS}. Default: apnc, or what --fmu starts with.")
+        str | None,
+        Option(
+            help=f"One of {_CONTROLLERS}. Default: apnc, or what --fmu starts with.",
+            autocompletion=complete.controllers,
+        ),
     ] = None,
     preset: Annotated[
         str | None,
         Option(
             help="robot (the defaults and the robot's file), lilibot (the defaults) or paper "
-            "(as printed). Default: robot."
+            "(as printed). Default: robot.",
+            autocompletion=complete.presets,
         ),
     ] = None,
     setting: Annotated[
         list[str] | None,
-        Option("--set", help="NAME=VALUE of a parameter of the controller. May be repeated."),
+        Option(
+            "--set",
+            help="NAME=VALUE of a parameter of the controller. May be repeated.",
+            autocompletion=complete.settings,
+        ),
     ] = None,
     params: Annotated[
         Path | None, Option(help="File of parameters: summary.json, SSV, JSON or TOML.")
@@ -88,7 +102,10 @@ def walk(
     gait: Annotated[Path | None, Option(help="File of a stored gait to start with.")] = None,
     ground: Annotated[
         str | None,
-        Option(help="plane, obstacles, kerb or waves, as kerb:height=0.006. Default: plane."),
+        Option(
+            help="plane, obstacles, kerb or waves, as kerb:height=0.006. Default: plane.",
+            autocompletion=complete.grounds,
+        ),
     ] = None,
     roughness: Annotated[
         float | None, Option(help="Obstacles of the paper, roughness 0 ... 1. Default: none.")
@@ -97,14 +114,20 @@ def walk(
         float | None, Option(help="Rise of the ground along x [deg]. Default: 0.")
     ] = None,
     condition: Annotated[
-        str | None, Option(help=f"Condition, one of {_NAMED} *. Default: C1.")
+        str | None,
+        Option(
+            help=f"Condition, one of {_NAMED} *. Default: C1.", autocompletion=complete.conditions
+        ),
     ] = None,
     turn: Annotated[
         str | None, Option(help="Steering, -1 right ... 1 left *. Default: 0.0.")
     ] = None,
     reset: Annotated[
         str | None,
-        Option(help="true or false *: holds the controller in its start state. Default: false."),
+        Option(
+            help="true or false *: holds the controller in its start state. Default: false.",
+            autocompletion=complete.one_of("true", "false"),
+        ),
     ] = None,
     rate: Annotated[
         float | None,
@@ -122,7 +145,10 @@ def walk(
         Option(help="Longest integration step of the plant [s]. If omitted, the robot's own."),
     ] = None,
     engine: Annotated[
-        str | None, Option(help="exudyn, mujoco or compiled. Default: exudyn.")
+        str | None,
+        Option(
+            help="exudyn, mujoco or compiled. Default: exudyn.", autocompletion=complete.engines
+        ),
     ] = None,
     fmu: Annotated[
         str | None,
@@ -136,6 +162,12 @@ def walk(
         Path | None, file_option("MCAP log to write, for Foxglove, PlotJuggler or Rerun.")
     ] = None,
     opened: Annotated[bool, Option("--open", help="Open the report in the browser.")] = False,
+    view: Annotated[
+        bool, Option("--view", help="Show the walk live in the browser, where it can be pushed.")
+    ] = False,
+    view_speed: Annotated[
+        float | None, Option(help="Simulated time per real time with --view. Default: 1.")
+    ] = None,
 ) -> None:
     """Walk a robot under the FMU and write summary.json, record.csv and report.html.
 
@@ -152,14 +184,18 @@ def walk(
         writable(output)
         json_path = writable(json_file, file=True) if json_file else None
         mcap_path = _log_path(mcap) if mcap else None
-    with bar("walking") as show:
+        check_view(view, view_speed)
+    with viewed(experiment, view, view_speed) as live, bar("walking") as show:
 
         def progress(t: float, controller: Shown) -> None:
             phases = " ".join(f"{angle:5.2f}" for angle in controller.phi)
             state = f"x real time  phi {phases} rad"
             show(t, experiment.duration, lambda x: f"{t:5.1f} s  {x:4.1f}{state}")
 
-        record = apnc.simulate(experiment, progress=progress, stop=STOP)
+        record = apnc.simulate(
+            experiment, plant=live.plant, progress=progress, stop=STOP, watch=live.watch
+        )
+        live.end(f"{record.end} at {record.ended_at:.2f} s. The report: {output / 'report.html'}")
     if len(record) == 0:
         raise Interrupted(NOTHING)
     from apnc.loop.of_robot import source_of_mi, source_of_rate
