@@ -109,7 +109,7 @@ class Plant:
         Raises:
             ValueError: a leg is unknown, or the payload is not the one the plant was built with.
         """
-        conditions.check_legs(self.legs)
+        conditions = conditions.of_legs(self.legs)
         conditions.check_payload(self._conditions.payload)
         self._conditions = conditions
         numbers = conditions_numbers(conditions, self.legs, self._robot.weight)

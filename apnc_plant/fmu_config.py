@@ -8,10 +8,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from apnc_plant.conditions import CONDITIONS, Conditions
+from apnc_plant.conditions import named_conditions
 from apnc_plant.generate import start_macro
 from apnc_plant.ground.obstacles import CELLS, SINK_IN, STEP_HEIGHT, TILE, Obstacles
-from apnc_plant.numbers import SUSPENSION, leg_numbers
+from apnc_plant.numbers import leg_numbers, suspension
 from apnc_plant.robot.model import GRAVITY, PAYLOAD_SIZE, RobotDescription
 from apnc_plant.variables import Condition, starts_of, variable_named
 
@@ -42,7 +42,7 @@ def robot_config(robot: RobotDescription) -> bytes:
                 "ROBOT_TRUNK_CENTER": (trunk.center, "[m] middle of that box"),
                 "ROBOT_TRUNK_COM": (trunk.com, "[m] centre of mass"),
                 "ROBOT_COM_SIDE_OFFSET": (trunk.com_side_offset, "[m]"),
-                "ROBOT_SUSPENSION": (SUSPENSION, "of a held trunk, see plant_suspension"),
+                "ROBOT_SUSPENSION": (suspension(robot), "of a held trunk, see plant_suspension"),
                 "ROBOT_PAYLOAD_SIZE": (PAYLOAD_SIZE, "[m] edges of the box on the trunk"),
                 "ROBOT_FIELD_BALLS": (round(field.density * TILE**2), "obstacles in a tile"),
                 "ROBOT_FIELD_CELLS": (CELLS, "along an edge of a tile"),
@@ -61,7 +61,7 @@ def robot_config(robot: RobotDescription) -> bytes:
         "/* Conditions, see plant_model.c. */",
         *_table(
             "ROBOT_CONDITIONS",
-            (_condition(CONDITIONS[each.name], robot) for each in Condition),
+            (_condition(each.name, robot) for each in Condition),
         ),
         "",
         "#endif",
@@ -81,10 +81,9 @@ def _table(name: str, entries: Iterable[str]) -> list[str]:
     return [" \\\n    ".join([f"#define {name}", ", \\\n    ".join(entries)])]
 
 
-def _condition(conditions: Conditions, robot: RobotDescription) -> str:
-    legs = tuple(leg.name for leg in robot.legs)
-    named = (*conditions.damaged, *conditions.stuck)
-    missing = next((leg for leg in named if leg not in legs), None)
+def _condition(condition: str, robot: RobotDescription) -> str:
+    legs = robot.leg_names
+    conditions = named_conditions(condition, robot)
     delivered = {leg: value * robot.weight / 2.0 for leg, value in conditions.stuck.items()}
     delivered |= dict.fromkeys(conditions.silent(legs), 0.0)
     held = conditions.held_at is not None
@@ -96,8 +95,7 @@ def _condition(conditions: Conditions, robot: RobotDescription) -> str:
         [int(leg in conditions.damaged) for leg in legs],
         [delivered.get(leg, math.nan) for leg in legs],
     ]
-    name = f'"{missing}"' if missing else "NULL"
-    return "{" + ", ".join([name, *map(_initializer, parts)]) + "}"
+    return _initializer(parts)
 
 
 def _initializer(value: Any) -> str:

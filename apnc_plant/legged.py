@@ -161,7 +161,7 @@ class LeggedPlant:
         Raises:
             ValueError: a leg is unknown, or the payload is not the one the plant was built with.
         """
-        conditions.check_legs(self.legs)
+        conditions = conditions.of_legs(self.legs)
         conditions.check_payload(self._conditions.payload)
         self._conditions = conditions
         self._damaged = [leg in conditions.damaged for leg in self.legs]

@@ -19,14 +19,26 @@ from apnc_plant.robot.model import (
     Servo,
     Trunk,
 )
+from apnc_plant.robot.size import times_heavier, times_longer
 
 SUSPENSION: Final = (5000.0, 200.0, 50.0, 2.0)
-"""Suspension of a held trunk: stiffness and damping of its position [N/m], [N s/m], then of its
-rotation [N m/rad], [N m s/rad].
+"""Suspension of the held trunk of Lilibot: stiffness and damping of its position [N/m], [N s/m],
+then of its rotation [N m/rad], [N m s/rad].
 
-For a robot of some kilograms it is close to critically damped, and so stiff that legs swinging in
-the air move the trunk by tenths of a millimetre only.
+It is close to critically damped, and so stiff that legs swinging in the air move the trunk by
+tenths of a millimetre only.
 """
+
+
+def suspension(robot: RobotDescription) -> tuple[float, ...]:
+    """Suspension of a held trunk: that of Lilibot, scaled so that robots of all sizes move alike.
+
+    Forces grow with the weight, lengths with the leg, and times with the root of the leg.
+    """
+    m, length = times_heavier(robot), times_longer(robot)
+    time = math.sqrt(length)
+    scales = (m / length, m / time, m * length, m * length * time)
+    return tuple(number * scale for number, scale in zip(SUSPENSION, scales, strict=True))
 
 
 class Numbers(NamedTuple):
@@ -68,7 +80,7 @@ def robot_numbers(
         "servo": servo_numbers(robot.servo),
         "contact": contact_numbers(robot.contact),
         "sensor": sensor_numbers(robot.sensor),
-        "suspension": SUSPENSION,
+        "suspension": suspension(robot),
         "leg": legs,
     }
     return Numbers(ffi.new("plant_robot *", numbers), (legs,))

@@ -50,10 +50,11 @@ ENUMERATIONS: Final = (
         (
             "nothing is wrong",
             "noisy loads",
-            "leg RF is damaged: its hip and knee are held at 0",
-            f"a payload of {PAYLOAD:g} kg, which cannot be added or removed between steps",
+            "the right front leg is damaged: its hip and knee are held at 0",
+            f"a payload of {PAYLOAD:g} of the robot's mass, which cannot be added or removed "
+            "between steps",
             "held in the air",
-            "the sensors of legs RF and LF are stuck",
+            "the sensors of both front legs are stuck",
             "no sensor delivers a load",
         ),
     ),

@@ -133,7 +133,7 @@ def build_system(
         }
         experiment = experiment_of(words)
         if payload:
-            named = named_conditions(condition)
+            named = named_conditions(condition, experiment.description)
             loaded = replace(named, payload=named.payload + payload)
             experiment = replace(experiment, conditions=loaded)
         output = writable(output or Path(f"{system_name(robot)}.ssp"), file=True)

@@ -60,7 +60,7 @@ class Run:
         ffi, _ = library()
         self.experiment, self._controller = experiment, controller
         robot, ground = experiment.description, experiment.ground
-        steps = [(tick, conditions_of(c)) for tick, c in _ticks(experiment, "conditions")]
+        steps = [(tick, conditions_of(c, robot)) for tick, c in _ticks(experiment, "conditions")]
         first = steps[0][1]
         names, n_legs = tuple(leg.name for leg in robot.legs), len(robot.legs)
         self.mass = robot.mass + first.payload

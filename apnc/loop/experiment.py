@@ -28,7 +28,13 @@ from apnc_core.settings import Setting, SettingLike
 from apnc_core.settings import checked as checked_setting
 from apnc_core.variables import variable_named
 from apnc_plant.chance import LARGEST_SEED
-from apnc_plant.conditions import CONDITIONS, Conditions, named_conditions
+from apnc_plant.conditions import (
+    CONDITIONS,
+    Conditions,
+    checked_name,
+    named_conditions,
+    paper_conditions,
+)
 from apnc_plant.files import Number, checked, checked_table, limits
 from apnc_plant.ground import Ground, Plane, from_dict
 from apnc_plant.options import PlantOptions
@@ -71,8 +77,7 @@ def _boolean(value: Any) -> bool:
 
 def _conditions(value: Any) -> str | Conditions:
     if isinstance(value, str):
-        named_conditions(value)
-        return value
+        return checked_name(value)
     if isinstance(value, Mapping):
         return checked_table(Conditions, value)
     if not isinstance(value, Conditions):
@@ -132,7 +137,7 @@ class Experiment:
         settings: parameters that differ from those of the preset and the controller, by name.
         ground: the ground.
         conditions: payload, damage and broken sensors: a name of the paper or ``Conditions``; one
-            value or steps.
+            value or steps. Legs may be named by place or as on other robots.
         turn: steering [1], positive turns left; one value or steps.
         reset: whether the controller is held in its start state; one value or steps.
         rate: update rate of the controller [Hz]; if omitted, the FMU's own, else the robot's, else
@@ -177,9 +182,8 @@ class Experiment:
         for name, value in self._omitted().items():
             if getattr(self, name) is None:
                 object.__setattr__(self, name, value)
-        present = [conditions_of(value) for _, value in steps_of(self.conditions)]
-        for each in present:
-            each.check_legs(tuple(leg.name for leg in self.description.legs))
+        robot = self.description
+        present = [conditions_of(value, robot) for _, value in steps_of(self.conditions)]
         if len(loads := {each.payload for each in present}) > 1:
             raise ValueError(f"payload changes during the run: {sorted(loads)} kg; allowed: one")
         if self.controller is not None:
@@ -336,7 +340,9 @@ class Experiment:
             "robot": _hash_of(self.description),
             "ground": self.ground.to_dict(),
             "parameters": self.parameters(),
-            "conditions": [(t, conditions_of(c)) for t, c in steps_of(self.conditions)],
+            "conditions": [
+                (t, conditions_of(c, self.description)) for t, c in steps_of(self.conditions)
+            ],
             "fmu": self.fmu and hashlib.sha256(Path(self.fmu).read_bytes()).hexdigest(),
             "code": code_hash(),
         }
@@ -362,7 +368,7 @@ class Experiment:
             elif name == "pushes":
                 words += ["--push", pushes_text(value)]
             elif name == "conditions":
-                words += ["--condition", schedule_text(value, _name_of)]
+                words += ["--condition", schedule_text(value, self._name_of)]
             else:
                 words += [f"--{name}", schedule_text(value)]
         return shlex.join(words)
@@ -376,21 +382,25 @@ class Experiment:
             if not shipped or _shipped(robot.name) != robot:
                 found.append(f"robot '{robot.name}'")
         values = [value for _, value in steps_of(self.conditions)]
-        if any(_name_of(value) not in CONDITIONS for value in values):
+        if any(self._name_of(value) not in CONDITIONS for value in values):
             found.append("conditions")
         return found
 
+    def _name_of(self, value: str | Conditions) -> str:
+        """Name of the conditions of the paper that a value is; else the value as text."""
+        if isinstance(value, str):
+            return value
+        own = conditions_of(value, self.description)
+        paper = paper_conditions(self.description).items()
+        named = (name for name, each in paper if each == own)
+        return next(named, str(value))
 
-def conditions_of(value: str | Conditions) -> Conditions:
-    """The conditions that a value of ``Experiment.conditions`` stands for."""
+
+def conditions_of(value: str | Conditions, robot: RobotDescription) -> Conditions:
+    """The conditions of a robot that a value of ``Experiment.conditions`` stands for."""
     if isinstance(value, Conditions):
-        return value
-    return named_conditions(value)
-
-
-def _name_of(value: str | Conditions) -> str:
-    named = (name for name, each in CONDITIONS.items() if value in (name, each))
-    return next(named, str(value))
+        return value.of_legs(robot.leg_names)
+    return named_conditions(value, robot)
 
 
 def _digest(value: Any) -> str:

@@ -11,6 +11,7 @@ from typing import Annotated, Any, Final, Literal
 from apnc.loop.last_sample import last_sample
 from apnc_core.variables import variable_named
 from apnc_plant.files import Number, checked, checked_file, limits
+from apnc_plant.robot.leg_names import same_legs
 from build_fmu.writing import write_atomically
 
 FORMAT: Final = "apnc-gait"
@@ -50,10 +51,13 @@ class Gait:
     def settings(self, legs: tuple[str, ...]) -> dict[str, Any]:
         """Parameters of the FMU to start with this gait on a robot with these legs.
 
+        The legs may have other names at the same places, see
+        :func:`apnc_plant.robot.leg_names.leg_named`.
+
         Raises:
             GaitError: the gait is one of other legs.
         """
-        if legs != self.legs:
+        if not same_legs(self.legs, legs):
             raise GaitError(
                 f"the gait is of legs {', '.join(self.legs)}; the robot has {', '.join(legs)}"
             )

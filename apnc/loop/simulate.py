@@ -113,7 +113,9 @@ def plant_of(experiment: Experiment) -> Plant:
         experiment.seed,
         options=PlantOptions(step=experiment.step),
         ground=experiment.ground,
-        conditions=conditions_of(ScheduleLookup(experiment.conditions).at(0.0)),
+        conditions=conditions_of(
+            ScheduleLookup(experiment.conditions).at(0.0), experiment.description
+        ),
     )
 
 
@@ -141,7 +143,7 @@ def _run(
             break
         t = n * Ts
         if (wanted := conditions.at(t)) is not present:
-            plant.set_conditions(conditions_of(wanted))
+            plant.set_conditions(conditions_of(wanted, experiment.description))
             present = wanted
         controller.step(t, Ts, plant.grf(), mi.at(t), turn.at(t), reset.at(t))
         body.take()

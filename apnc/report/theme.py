@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Final
 
+from apnc_plant.robot.leg_names import by_place
+
 # Colours of Okabe and Ito (2008), which people with colour vision deficiencies can tell apart;
 # without yellow, which is hard to see on white.
 BLUE: Final = "#0072B2"
@@ -32,23 +34,23 @@ DARK: Final = {
 }
 """What the page draws in place of these colours where a dark page is preferred."""
 
-_BY_NAME: Final = {
-    "RF": BLUE,
-    "RH": ORANGE,
-    "LF": GREEN,
-    "LH": PURPLE,
-    "RM": VERMILLION,
-    "LM": SKY,
+_BY_PLACE: Final = {
+    "right front": BLUE,
+    "right hind": ORANGE,
+    "left front": GREEN,
+    "left hind": PURPLE,
+    "right middle": VERMILLION,
+    "left middle": SKY,
 }
 
 
 def leg_colours(legs: Sequence[str]) -> dict[str, str]:
-    """Colour of each leg, the same in every plot and in the animation."""
-    spare = [c for c in _BY_NAME.values() if c not in [_BY_NAME.get(leg) for leg in legs]]
-    spare += [INK, GREY]
-    others = [leg for leg in legs if leg not in _BY_NAME]
+    """Colour of each leg by its place, the same in every plot and in the animation."""
+    own = {leg: _BY_PLACE[place] for place, leg in reversed(by_place(tuple(legs)).items())}
+    spare = [colour for colour in _BY_PLACE.values() if colour not in own.values()] + [INK, GREY]
+    others = [leg for leg in legs if leg not in own]
     fallback = {leg: spare[i % len(spare)] for i, leg in enumerate(others)}
-    return {leg: _BY_NAME.get(leg) or fallback[leg] for leg in legs}
+    return {leg: own.get(leg) or fallback[leg] for leg in legs}
 
 
 def axis(title: str, **more: Any) -> dict[str, Any]:

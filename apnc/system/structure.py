@@ -12,7 +12,7 @@ from apnc.system.plant_fmu import MODEL_SUFFIX, PlantBuild, plant_model
 from apnc_core.schema import Causality, Scalar, Type, Value
 from apnc_core.settings import Setting, checked_in
 from apnc_core.variables import scalars, variable_named, variables_of
-from apnc_plant.conditions import CONDITIONS, Conditions
+from apnc_plant.conditions import Conditions, paper_conditions
 from apnc_plant.ground import Obstacles
 from apnc_plant.variables import COMMANDS, FELL, LOAD, TABLE, Condition
 from build_fmu.description_parts import UNITS
@@ -259,7 +259,9 @@ def _condition(experiment: Experiment) -> tuple[Condition, float] | None:
         return Condition[wanted], 0.0
     if not isinstance(wanted, Conditions):
         return None
-    for name, known in CONDITIONS.items():
+    robot = experiment.description
+    wanted = wanted.of_legs(robot.leg_names)
+    for name, known in paper_conditions(robot).items():
         more = wanted.payload - known.payload
         if more >= 0.0 and replace(wanted, payload=known.payload) == known:
             return Condition[name], more

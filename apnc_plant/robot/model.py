@@ -326,6 +326,11 @@ class RobotDescription:
                 raise ValueError(f"mi is {self.mi}; allowed: {low} to {high}, its mi_range [1]")
 
     @property
+    def leg_names(self) -> tuple[str, ...]:
+        """Names of the legs, in the order of the controller."""
+        return tuple(leg.name for leg in self.legs)
+
+    @property
     def mass(self) -> float:
         """Total mass [kg]."""
         return self.trunk.mass + sum(leg.mass for leg in self.legs)

@@ -15,7 +15,6 @@
 
 /* A condition of the paper for this robot. */
 typedef struct {
-    const char *missing;        /* a leg that the condition names and this robot has not, or NULL */
     double payload;             /* [kg] */
     double grf_noise;           /* [1] see plant_conditions */
     double held_at;             /* [m] */
@@ -249,10 +248,6 @@ apnc_status apnc_model_accepts(apnc_instance *instance, const apnc_variable *var
     const plant_run *run = instance->state;
     if (variable->offset != offsetof(plant_values, parameters.condition)) return APNC_OK;
     const condition_numbers *c = &conditions[(int)value - 1];
-    if (c->missing)
-        return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
-                           "%s = %g is of leg %s, which this robot has not", variable->name, value,
-                           c->missing);
     if (instance->run->phase == APNC_STEPPING && c->payload != run->payload)
         return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
                            "%s = %g has a payload of %g kg, but the robot started with %g kg",

@@ -12,10 +12,10 @@
 typedef enum {
     PLANT_CONDITION_C1 = 1, /* nothing is wrong */
     PLANT_CONDITION_C2 = 2, /* noisy loads */
-    PLANT_CONDITION_C3 = 3, /* leg RF is damaged: its hip and knee are held at 0 */
-    PLANT_CONDITION_C4 = 4, /* a payload of 1.25 kg, which cannot be added or removed between steps */
+    PLANT_CONDITION_C3 = 3, /* the right front leg is damaged: its hip and knee are held at 0 */
+    PLANT_CONDITION_C4 = 4, /* a payload of 0.5 of the robot's mass, which cannot be added or removed between steps */
     PLANT_CONDITION_S1 = 5, /* held in the air */
-    PLANT_CONDITION_S2 = 6, /* the sensors of legs RF and LF are stuck */
+    PLANT_CONDITION_S2 = 6, /* the sensors of both front legs are stuck */
     PLANT_CONDITION_S3 = 7, /* no sensor delivers a load */
 } plant_condition;
 

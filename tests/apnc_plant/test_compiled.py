@@ -81,7 +81,7 @@ def test_every_robot_moves_as_in_exudyn(robot: RobotDescription) -> None:
 
 @pytest.mark.parametrize("name", ["C2", "C3", "C4", "S1", "S2", "S3"])
 def test_under_every_condition_the_robot_moves_as_in_exudyn(name: str) -> None:
-    assert_same(ROBOT, conditions=named_conditions(name))
+    assert_same(ROBOT, conditions=named_conditions(name, ROBOT))
 
 
 @pytest.mark.parametrize("duration", [TICK, 1 / 50, 1 / 240])

@@ -53,7 +53,7 @@ def test_the_mass_matrix_is_that_of_exudyn(robot: RobotDescription) -> None:
 def test_seed_conditions_and_sensor_are_those_of_every_plant() -> None:
     fine, ground = PlantOptions(step=TICK / 512), Obstacles(roughness=0.5, seed=2)
     ours, theirs = (
-        P(ROBOT, 5, options=fine, conditions=named_conditions("C4"), ground=ground)
+        P(ROBOT, 5, options=fine, conditions=named_conditions("C4", ROBOT), ground=ground)
         for P in (Plant, ExudynPlant)
     )
     assert (ours.legs, ours.mass) == (theirs.legs, theirs.mass)
@@ -105,7 +105,7 @@ def test_a_sliding_foot_gets_no_extra_normal_force() -> None:
 
 
 def test_a_held_trunk_hangs_and_is_let_go() -> None:
-    plant = Plant(ROBOT, conditions=named_conditions("S1"))
+    plant = Plant(ROBOT, conditions=named_conditions("S1", ROBOT))
     for _ in range(60):
         plant.advance(np.full(4, 0.1), np.full(4, 0.1), TICK)
     assert not plant.sample()["foot_force"].any()

@@ -1,4 +1,4 @@
-"""Section 3.1.4, Fig. 8: how fast the robot walks with leg RF held still."""
+"""Section 3.1.4, Fig. 8: how fast the robot walks with the right front leg held still."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def figures(results: Sequence[Result]) -> list[Figure]:
         counted(results, SPEED, label): values(results, SPEED, controller=label) for label in labels
     }
     colours = [LOOKS[label].colour for label in labels]
-    note = "Commands of leg RF held at 0."
+    note = "Commands of the right front leg held at 0."
     return [side_by_side("damage-speed", "Speed", note, "speed [m/s]", groups, colours)]
 
 

@@ -25,18 +25,24 @@ from apnc.studies.results import Result, values
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.study import Robot
 from apnc_core import load
+from apnc_plant.conditions import named_conditions
+from apnc_plant.robot import RobotDescription
 
 COUPLINGS: Final = {"apnc": "with ANC", "apc": "without ANC"}
 STATES: Final = ("S1", "S2", "S3")
 PANELS: Final = ("cpg", "phi", "gait", "gamma", "kappa")
 """Panels of a walk's report to show: outputs, relative phases, stances, gain, couplings."""
 
-_INTERVALS: Final = (
-    (TIMELINE.lowered, TIMELINE.broken, "S1"),
-    (TIMELINE.broken, TIMELINE.stopped, "S2: RF, LF stuck at 0.9"),
-    (TIMELINE.stopped, TIMELINE.restarted, "MI = 0"),
-    (TIMELINE.restarted, TIMELINE.end, "S3: no feedback"),
-)
+
+def _intervals(robot: RobotDescription) -> tuple[tuple[float, float, str], ...]:
+    """Begin and end of each state [s], and what it is."""
+    front = ", ".join(named_conditions("S2", robot).stuck)
+    return (
+        (TIMELINE.lowered, TIMELINE.broken, "S1"),
+        (TIMELINE.broken, TIMELINE.stopped, f"S2: {front} stuck at 0.9"),
+        (TIMELINE.stopped, TIMELINE.restarted, "MI = 0"),
+        (TIMELINE.restarted, TIMELINE.end, "S3: no feedback"),
+    )
 
 
 def figures(results: Sequence[Result]) -> list[Figure]:
@@ -65,7 +71,7 @@ def over_time(record: Record, words: str) -> list[Figure]:
     panels = [_loads(run), *(panel for panel in all_figures(run) if panel.key in PANELS)]
     return [
         replace(
-            marked(panel, record.time[run.samples.at], _INTERVALS),
+            marked(panel, record.time[run.samples.at], _intervals(record.robot)),
             key=f"states-{panel.key}-{record.experiment.controller}",
             title=f"{panel.title}, {words}",
         )
@@ -120,7 +126,7 @@ def broken(record: Record) -> NDArray[np.bool_]:
     """Whether each sensor is stuck or silent at each tick, shape (T, n)."""
     found = np.zeros((len(record), record.n_legs), dtype=np.bool_)
     for start, entry in steps_of(record.experiment.conditions):
-        conditions = conditions_of(entry)
+        conditions = conditions_of(entry, record.robot)
         legs = {*conditions.stuck, *conditions.silent(record.legs)}
         found[record.time >= start - 1e-9] = [leg in legs for leg in record.legs]
     return found

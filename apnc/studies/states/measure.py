@@ -11,6 +11,7 @@ from apnc import metrics
 from apnc.loop.record import End, Record
 from apnc.studies.results import Result
 from apnc.studies.states.timeline import TIMELINE, Timeline
+from apnc_plant.robot.leg_names import by_place
 
 STOPPED: Final = 0.2
 """Range of o1 below which an oscillator counts as stopped. It is about 1.7 in a cycle [1]."""
@@ -100,7 +101,8 @@ def judge(record: Record, when: Timeline = TIMELINE) -> Result:
         record.signals["foot_force"][s1, :, 2], record.mass * metrics.GRAVITY
     )
     formation, recovery = converged(s1, touch), converged(s3, 0)
-    front = [leg for leg, name in enumerate(record.legs) if name.endswith("F")]
+    places = by_place(record.legs)
+    front = [record.legs.index(places[f"{side} front"]) for side in ("right", "left")]
     moved = np.ptp(c["o1"][late_s2][:, front], axis=0)
     speed = metrics.smoothed_speed(time, record.signals["position"], record.signals["rpy"][:, 2])
     ends = {"speed_s1": when.broken, "speed_s2": when.stopped, "speed_s3": when.end}

@@ -24,6 +24,7 @@ from apnc.studies.results import Result, matching, values
 from apnc.studies.steering.schedules import SPEED, SPEEDS, YAW_RATE, experiment
 from apnc.studies.study import Robot
 from apnc_core.types import Array
+from apnc_plant.robot.leg_names import by_place
 
 WAYS: Final = ("straight", "right", "left", "straight again")
 """Name of each interval of the schedule of turns."""
@@ -86,7 +87,9 @@ def turns_over_time(record: Record) -> Figure:
     run, time = Run(record, walk_features(record)), record.time
     yaw = np.unwrap(record.signals["rpy"][:, 2])
     hips = np.degrees(record.signals["theta_hip"]).T
-    front = {leg: hip for leg, hip in zip(record.legs, hips, strict=True) if leg.endswith("F")}
+    places = by_place(record.legs)
+    named = {places[f"{side} front"] for side in ("right", "left")}
+    front = {leg: hip for leg, hip in zip(record.legs, hips, strict=True) if leg in named}
     panels = [
         ("turn [1]", [_command(run, record.signals["turn"])]),
         *(

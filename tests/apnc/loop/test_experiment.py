@@ -253,6 +253,16 @@ def test_an_experiment_cannot_change_and_survives_every_way_of_copying(
         assert copied.description == experiment.description
 
 
+def test_legs_have_other_names_too() -> None:
+    named = [Conditions(damaged=(name,)) for name in ("RF", "FR", "right front")]
+    keys = {Experiment(conditions=each).key() for each in named}
+    assert keys == {Experiment(conditions="C3").key()}
+    assert {Experiment(conditions=each).command() for each in named} == {"apnc walk --condition C3"}
+    stuck = Conditions(stuck={"FR": 0.9, "RF": 0.8})
+    with pytest.raises(ValueError, match=r"^leg 'RF' is stuck twice, also as 'RF'; allowed: once"):
+        Experiment(conditions=stuck)
+
+
 def test_whole_numbers_are_the_numbers_they_are() -> None:
     whole = Experiment(duration=20, rate=50, mi=((0, 0.1), (5, 1)), turn=0)
     same = Experiment(duration=20.0, rate=50.0, mi=((0.0, 0.1), (5.0, 1.0)), turn=0.0)

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from apnc import Conditions, End, Experiment, Obstacles, Plane, simulate
-from apnc_plant.conditions import CONDITIONS
 from apnc_plant.plant import PlantError
 from apnc_plant.trace import Trace
 
@@ -81,7 +80,7 @@ def test_commands_and_conditions_change_at_their_times() -> None:
     assert np.array_equal(record.signals["MI"], np.where(ticks < 5, 0.1, 0.3))
     assert np.array_equal(record.signals["turn"], np.where(ticks < 10, 0.0, -0.5))
     assert np.array_equal(record.signals["reset"], ticks < 15)
-    assert plant.conditions == [(20, CONDITIONS["C3"]), (30, CONDITIONS["C1"])]
+    assert plant.conditions == [(20, Conditions(damaged=("RF",))), (30, Conditions())]
 
 
 def test_a_fall_ends_the_run_with_the_tick_after_which_the_plant_fell() -> None:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from apnc import Experiment
 from apnc.system.structure import structure_of
-from apnc_plant.conditions import CONDITIONS, Conditions
+from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Obstacles, Plane, Waves
 from apnc_plant.variables import Condition
 
@@ -81,7 +80,7 @@ def test_numbers_that_no_robot_has_are_refused(numbers: dict[str, float], words:
         ("C4", Condition.C4, 0.0),
         (Conditions(payload=0.5), Condition.C1, 0.5),
         (Conditions(payload=1.25), Condition.C1, 1.25),
-        (replace(CONDITIONS["S2"], payload=0.5), Condition.S2, 0.5),
+        (Conditions(stuck={"right_front": 0.9, "FL": 0.9}, payload=0.5), Condition.S2, 0.5),
     ],
 )
 def test_a_payload_comes_on_top_of_a_condition(
