@@ -1,41 +1,19 @@
-"""Costs of a run, 0 for a perfect walk. Lengths count in leg lengths L, speeds in sqrt(g L).
-
-A gait counts only if the robot walks: else a search finds robots that march on the spot.
-"""
+"""Costs of a run, 0 for a perfect walk. Lengths count in leg lengths L, speeds in sqrt(g L)."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
-from apnc import metrics
-from apnc.feet import Feet
-from apnc.loop.record import Record
-from apnc.tune.design import Start
-from apnc.tune.runs import Task
-from apnc_core.types import Array
+from apnc.tune.measured import Measured
+from apnc.tune.paper import cost_of_paper, cost_of_ratio
+from apnc.tune.runs import GAIT_KINDS, Task
 
 FAILED: Final = 8.0
 """Cost of a run whose robot fell at once or whose motion diverged."""
-
-MIN_SPEED: Final = 0.045
-"""Least speed of a walk [sqrt(g L)]."""
-
-MIN_LIFT: Final = 0.025
-"""Least lift in mid-swing of a foot that steps [L]."""
-
-MAX_SLIP: Final = 0.30
-"""Most slip of a foot that steps, as a share of the stride [1]."""
-
-WANTED_LIFT: Final = 0.06
-"""Lift of every foot without cost [L]: the aim of 0.05 and a margin."""
-
-WANTED_SLIP: Final = 0.14
-"""Slip without cost, as a share of the stride [1]: the aim of 0.18 and a margin."""
 
 WANTED_SPEED: Final = (0.065, 0.08)
 """Speed without cost [sqrt(g L)]: at the lowest MI, and what is added until the highest."""
@@ -43,159 +21,38 @@ WANTED_SPEED: Final = (0.065, 0.08)
 WANTED_TURN: Final = math.radians(10.0) / 45.0
 """Turning rate that costs little [rad/s], in the time of a robot of Lilibot's size."""
 
-LATE: Final = 0.45
-"""Last part of a run, in which feet, speed and turn are measured, as a share of it."""
-
-END: Final = 0.25
-"""Last part of a run, at which the gait must be exact, as a share of it."""
-
-SATURATED: Final = 0.97
-"""Share of its limit from which on a torque counts as saturated [1]."""
-
-
-@dataclass(frozen=True)
-class Measured:
-    """What a search measures of a run.
-
-    Args:
-        kind, share: those of its :class:`Task`.
-        fell: when it fell or diverged, as a share of the run; 1 if it did not.
-        strict: whether the gait of these legs formed and held, by the strict criterion.
-        time: from the touch moment until then, in the time of Lilibot's size [s]; nan without.
-        mean_error: mean of the largest deviation of a phase from the gait [rad].
-        end_error: mean of what is above 0.2 rad of it at the end [rad].
-        speed: along the heading [sqrt(g L)].
-        lift: lift in mid-swing of the foot that lifts least [L].
-        slip: slip in a stride of the foot that slips most, as a share of the stride [1].
-        feet: costs of the feet, their mean [1].
-        turning: turning rate, in the time of Lilibot's size [rad/s].
-        saturated: share of joints and time in which the torque is at its limit [1].
-        transport: cost of transport [1].
-    """
-
-    kind: str
-    share: float
-    fell: float
-    strict: bool
-    time: float
-    mean_error: float
-    end_error: float
-    speed: float
-    lift: float
-    slip: float
-    feet: float
-    turning: float
-    saturated: float
-    transport: float
-
-    @property
-    def walks(self) -> bool:
-        """Whether it gets ahead on feet that step."""
-        return (
-            self.fell == 1.0
-            and self.speed >= MIN_SPEED
-            and self.lift >= MIN_LIFT
-            and self.slip <= MAX_SLIP
-        )
-
-    @property
-    def good(self) -> bool:
-        """Whether the gait formed, held, and is a walk."""
-        return self.strict and self.walks
-
-
-def measured(start: Start, task: Task, record: Record) -> Measured:
-    """Measure a run."""
-    ticks = task.experiment.ticks
-    if not record.complete or len(record.time) < ticks:
-        return _fallen(task, len(record.time) / ticks)
-    signals, n = record.signals, len(record.legs)
-    time, o1, o2 = record.time, signals["o1"], signals["o2"]
-    error = np.nan_to_num(metrics.phase_error(o1, o2, target(n)), nan=np.pi)
-    touch = metrics.touch_moment(signals["foot_force"][..., 2], record.mass * metrics.GRAVITY)
-    settled = metrics.settling_time(time, error, touch)
-    late = slice(ticks - round(LATE * ticks), None)
-    yaw, where = signals["rpy"][late, 2], signals["position"][late]
-    ahead = metrics.smoothed_speed(time[late], where, yaw)
-    speed = float(ahead.mean())
-    feet = Feet(record, late)
-    lifts, slips, cost = _feet(feet, speed, start.length)
-    turn = metrics.turned(yaw) or 0.0
-    stall = np.array([record.robot.servo.stall_torque])
-    torque = np.abs(signals["joint_torque"][late])
-    work = signals["joint_work"][late].reshape(len(yaw), -1).sum(axis=1)
-    way = max(speed, MIN_SPEED * start.gravity_speed) * float(time[-1] - time[late][0])
-    return Measured(
-        task.kind,
-        task.share,
-        1.0,
-        settled is not None,
-        float("nan") if settled is None else settled / start.time,
-        float(error.mean()),
-        float(np.clip(error[-round(END * ticks) :] - 0.2, 0.0, 1.5).mean()),
-        speed / start.gravity_speed,
-        lifts,
-        slips,
-        cost,
-        turn / float(time[-1] - time[late][0]) * start.time,
-        float((torque > SATURATED * stall).mean()),
-        float(work[-1] - work[0]) / (record.mass * metrics.GRAVITY * way),
-    )
-
-
-def target(n_legs: int) -> Array:
-    """Phases of the gait that these legs are to find [rad], shape (n - 1,).
-
-    Raises:
-        ValueError: no gait is known for this number of legs.
-    """
-    found = metrics.default_target(n_legs)
-    if found is None:
-        raise ValueError(f"no gait is known for {n_legs} legs; allowed: 4, 6 or 8")
-    return np.asarray(found)
-
-
-def _feet(feet: Feet, speed: float, length: float) -> tuple[float, float, float]:
-    """Lift [L], slip [1], and the mean cost of the feet."""
-    stride = max(speed, 0.02 * math.sqrt(length / 0.155)) / (feet.stride_frequency or 1.0)
-    lifts = [0.0 if lift is None else lift / length for lift in feet.lifts]
-    slips = [1.0 if slip is None else slip / stride for slip in feet.slips]
-    downs = [0.0 if count is None else count for count in feet.touch_downs]
-    cost = (
-        _mean(lifts, lambda lift: min(1.0, max(0.0, 1.0 - lift / WANTED_LIFT)))
-        + _mean(slips, lambda slip: min(2.0, max(0.0, slip / WANTED_SLIP - 1.0)))
-        + _mean(downs, lambda count: min(1.0, abs(count - 1.0)))
-    )
-    return min(lifts), max(slips), cost
-
-
-def _mean(figures: Sequence[float], cost: Callable[[float], float]) -> float:
-    return sum(map(cost, figures)) / len(figures)
-
-
-def _fallen(task: Task, share: float) -> Measured:
-    nan = float("nan")
-    return Measured(
-        task.kind, task.share, min(share, 0.999), False, nan, np.pi, 1.5, 0.0, 0.0, 1.0, 4.0,
-        0.0, 0.0, 0.0,
-    )  # fmt: skip
-
 
 def cost_of(run: Measured) -> float:
     """Cost of a run."""
     if run.fell < 1.0:
         return FAILED * (1.0 - 0.3 * run.fell)
+    if run.kind not in GAIT_KINDS:
+        return cost_of_paper(run)
     cost = 2.0 * min(run.mean_error / np.pi, 1.0) + 1.5 * run.end_error
     cost += 0.4 * (not run.strict) + 0.4 * (not run.walks)
     wanted = WANTED_SPEED[0] + WANTED_SPEED[1] * run.share
     cost += 1.5 * min(1.0, max(0.0, 1.0 - run.speed / wanted))
     cost += 2.0 * run.saturated + 0.02 * run.transport
-    if run.kind in ("walk", "varied", "apc"):
+    if run.kind in ("walk", "apc"):
         cost += run.feet + 0.25 * math.log1p(abs(run.turning) / WANTED_TURN)
     return cost
 
 
-def total(runs: Sequence[Measured]) -> float:
-    """Cost of a candidate: a mean over its runs, in which one large cost exceeds many small."""
+def total(tasks: Sequence[Task], runs: Sequence[Measured], *, paper: bool = False) -> float:
+    """Cost of a candidate: a mean over its runs, in which one large cost exceeds many small.
+
+    Args:
+        tasks: its runs.
+        runs: what was measured of them.
+        paper: whether the speed is to grow with MI as the paper's does.
+    """
     costs = [cost_of(run) for run in runs]
-    return sum(cost + cost**2 for cost in costs) / len(costs)
+    mean = sum(cost + cost**2 for cost in costs) / len(costs)
+    if not paper:
+        return mean
+    return mean + cost_of_ratio(runs, [_mi(task) for task in tasks])
+
+
+def _mi(task: Task) -> float:
+    mi = task.experiment.mi
+    return float(mi) if isinstance(mi, int | float) else math.nan

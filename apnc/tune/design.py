@@ -18,6 +18,10 @@ MI_AIMED: Final = (0.08, 0.28)
 """MI range that is aimed at before it is scaled: that of the paper's gaits, slow to fast."""
 
 
+MI_OF_PAPER: Final = (0.04, 0.40)
+"""MI range of the paper's experiments; it is not scaled."""
+
+
 class DesignVariable(NamedTuple):
     """A number that is searched.
 
@@ -93,12 +97,14 @@ class Start:
         rate: update rate of its controller [Hz].
         mi: MI range that is aimed at before it is scaled.
         variables: what is searched.
+        paper: whether it is judged by the paper's other experiments, too.
     """
 
     robot: RobotDescription
     rate: float
     mi: tuple[float, float]
     variables: tuple[DesignVariable, ...]
+    paper: bool = False
 
     @property
     def length(self) -> float:
@@ -224,14 +230,18 @@ def _body(robot: RobotDescription, values: Mapping[str, float], length: float) -
     return robot
 
 
-def variables_for(*, servo: bool = True, body: bool = False) -> tuple[DesignVariable, ...]:
+def variables_for(
+    *, servo: bool = True, body: bool = False, scale: bool = True
+) -> tuple[DesignVariable, ...]:
     """What is searched.
 
     Args:
         servo: whether the gains of the servos may be changed.
         body: whether what is uncertain of the body may be changed.
+        scale: whether the MI range may be scaled.
     """
-    return (*STANCE, *GAINS, *(SERVO if servo else ()), *(BODY if body else ()))
+    gains = [each for each in GAINS if scale or each.name != "mi.scale"]
+    return (*STANCE, *gains, *(SERVO if servo else ()), *(BODY if body else ()))
 
 
 def spread(variables: Sequence[DesignVariable]) -> Array:

@@ -11,8 +11,9 @@ from typing import Any, Final
 from apnc.loop.batch import Stop
 from apnc.loop.many import walk_many
 from apnc.loop.record import Record
-from apnc.tune.costs import Measured, measured
 from apnc.tune.design import Start
+from apnc.tune.measured import Measured
+from apnc.tune.paper import measured_of_paper
 from apnc.tune.runs import Task
 
 CHUNK: Final = 64
@@ -70,7 +71,7 @@ def _walked(
     start: Start, tasks: Sequence[Task], workers: int = 1, stop: Stop = lambda: False
 ) -> list[Measured]:
     def measure(index: int, record: Record) -> Measured:
-        return measured(start, tasks[index], record)
+        return measured_of_paper(start, tasks[index], record)
 
     found: list[Measured | None] = [None] * len(tasks)
     experiments = [task.experiment for task in tasks]

@@ -6,7 +6,7 @@ All times are those of a robot of Lilibot's size; ``Start.time`` makes them thos
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
@@ -60,6 +60,9 @@ _SEEDS: Final = 2**31
 
 _LEAST, _MOST = 0.0, 1.0
 
+GAIT_KINDS: Final = ("walk", "apc", "payload", "sensor", "air", "varied")
+"""Kinds of runs whose gait is judged as a walk is."""
+
 
 @dataclass(frozen=True)
 class Task:
@@ -76,7 +79,18 @@ class Task:
     experiment: Experiment
 
 
-def of_generation(start: Start, candidates: Sequence[Candidate], seed: int) -> list[list[Task]]:
+Extra = Callable[[Start, Candidate, Sequence[RobotDescription], int], list[Task]]
+"""Makes more runs of a candidate, from the bodies and the number of its generation."""
+
+
+def of_generation(
+    start: Start,
+    candidates: Sequence[Candidate],
+    seed: int,
+    *,
+    count: int = MI_COUNT,
+    extra: Extra | None = None,
+) -> list[list[Task]]:
     """Runs of the candidates of a generation: the same seeds, MI and chance for each of them.
 
     Every generation has bodies of its own that are off by ``MARGIN``, so that no set of gains is
@@ -86,11 +100,14 @@ def of_generation(start: Start, candidates: Sequence[Candidate], seed: int) -> l
         start: what is tuned.
         candidates: the candidates.
         seed: of the generation.
+        count: number of MI at which each walks.
+        extra: makes more runs of each.
     """
     rng = np.random.default_rng(seed)
-    cells = np.arange(MI_COUNT)
-    shares = (cells + rng.uniform(size=MI_COUNT)) / MI_COUNT if seed % 2 else cells / cells[-1]
-    alone = (np.arange(2) + rng.uniform(size=2)) / 2.0
+    cells = np.arange(count)
+    shares = (cells + rng.uniform(size=count)) / count if seed % 2 else cells / cells[-1]
+    few = count // 2
+    alone = (np.arange(few) + rng.uniform(size=few)) / few
     legs = [leg.name for leg in start.robot.legs]
     dead = legs[int(rng.integers(len(legs)))]
     plan: list[tuple[str, float, Any]] = [
@@ -104,28 +121,37 @@ def of_generation(start: Start, candidates: Sequence[Candidate], seed: int) -> l
     found = []
     for each in candidates:
         bodies = [_off(each.robot, seed) for seed in seeds[:BODIES]]
-        found.append([
+        tasks = [
             _task(
                 start, each, kind, share, WALK_S, conditions,
-                seed=seeds[k], body=bodies[k % BODIES],
-                    coarse=True,
+                seed=seeds[k], body=bodies[k % BODIES], coarse=True,
             )
             for k, (kind, share, conditions) in enumerate(plan)
-        ])  # fmt: skip
+        ]  # fmt: skip
+        found.append(tasks + (extra(start, each, bodies, seed) if extra else []))
     return found
 
 
 def of_check(
-    start: Start, each: Candidate, *, count: int = 11, seconds: float = 20.0
+    start: Start,
+    each: Candidate,
+    *,
+    count: int = 11,
+    seconds: float = 20.0,
+    extra: Extra | None = None,
 ) -> list[Task]:
     """Runs of a check during a search: the whole MI range with and without couplings."""
     shares = np.linspace(_LEAST, _MOST, count)
     seeds = range(_SEEDS, _SEEDS + 2 * count)
     plan = [(kind, float(share)) for kind in ("walk", "apc") for share in shares]
-    return [
+    tasks = [
         _task(start, each, kind, share, seconds, Conditions(), seed=seed)
         for (kind, share), seed in zip(plan, seeds, strict=True)
     ]
+    if extra is None:
+        return tasks
+    others = (extra(start, each, [each.robot], number) for number in range(3))
+    return tasks + [task for more in others for task in more]
 
 
 def of_validation(start: Start, each: Candidate, seeds: int) -> Iterator[Task]:

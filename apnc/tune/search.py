@@ -9,11 +9,13 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from apnc.extras import missing
-from apnc.tune.costs import Measured, total
+from apnc.tune.costs import total
 from apnc.tune.design import Candidate, Start, candidate
 from apnc.tune.evaluate import Evaluator, Stopped, seconds
 from apnc.tune.log import Log
-from apnc.tune.runs import of_check, of_generation
+from apnc.tune.measured import Measured
+from apnc.tune.paper import of_paper
+from apnc.tune.runs import MI_COUNT, Extra, of_check, of_generation
 from apnc_core.types import Array
 
 CANDIDATES: Final = 16
@@ -132,12 +134,24 @@ def _costs(
     start: Start, evaluator: Evaluator, points: Sequence[Array], seed: int, count: Count
 ) -> list[float]:
     tried = [candidate(start, x) for x in points]
-    plan = of_generation(start, tried, seed)
+    plan = of_generation(start, tried, seed, count=_count(start), extra=_extra(start))
     tasks = [task for tasks in plan for task in tasks]
     found = evaluator(tasks)
     count.simulated += seconds(tasks)
     each = len(plan[0])
-    return [total(found[at : at + each]) for at in range(0, len(found), each)]
+    return [
+        total(plan[k], found[k * each : (k + 1) * each], paper=start.paper)
+        for k in range(len(plan))
+    ]
+
+
+def _extra(start: Start) -> Extra | None:
+    return of_paper if start.paper else None
+
+
+def _count(start: Start) -> int:
+    """Number of MI of a generation: the paper's range is wide."""
+    return 7 if start.paper else MI_COUNT
 
 
 class _Checks:
@@ -154,10 +168,12 @@ class _Checks:
         if known is not None and self.best is not None and known >= self.best.cost:
             self._count.checked = self._count.candidates
             return self.best
-        tasks = of_check(self._start, found)
+        tasks = of_check(self._start, found, extra=_extra(self._start))
         runs = tuple(self._evaluator(tasks))
         self._count.simulated += seconds(tasks)
-        checked = Best(tuple(map(float, x)), found, runs, total(runs))
+        checked = Best(
+            tuple(map(float, x)), found, runs, total(tasks, runs, paper=self._start.paper)
+        )
         log.write_check(self._count.generations, checked.cost)
         self._count.checked = self._count.candidates
         if self.best is None or checked.cost < self.best.cost:
