@@ -114,7 +114,7 @@ def _experiment(
     """An experiment; times and the update rate, for Lilibot's size, become those of the robot."""
     settings = {"robot_weight": each.robot.weight, **fields.pop("settings", {})}
     rate = fields.pop("rate", 60.0) / start.time
-    scaled = {
+    scaled: dict[str, Any] = {
         name: tuple((at * start.time, entry) for at, entry in value)
         if isinstance(value, tuple)
         else value
@@ -198,4 +198,4 @@ def cost_of_ratio(runs: Sequence[Measured], mi: Sequence[float]) -> float:
     at, speeds = np.array(walks).T
     slope, at_zero = np.polyfit(at, speeds, 1).tolist()
     slow, fast = (max(at_zero + slope * each, 0.02) for each in (0.15, 0.40))
-    return 1.5 * min(1.0, max(0.0, WANTED_RATIO - fast / slow))
+    return float(1.5 * min(1.0, max(0.0, WANTED_RATIO - fast / slow)))
