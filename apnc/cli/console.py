@@ -188,8 +188,14 @@ def _wrapped(text: str, width: int, indent: int) -> str:
 
 
 @contextmanager
-def bar(label: str) -> Iterator[Callable[[float, float, Callable[[float], str]], None]]:
+def bar(
+    label: str, width: int = 40
+) -> Iterator[Callable[[float, float, Callable[[float], str]], None]]:
     """A progress bar with the time that remains. Before the first step it is a line of text.
+
+    Args:
+        label: text before the bar.
+        width: of the bar [characters].
 
     Yields:
         A function to call with the simulated time that is done, its total [s], and a function that
@@ -199,7 +205,7 @@ def bar(label: str) -> Iterator[Callable[[float, float, Callable[[float], str]],
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
 
     console = Console(stderr=True)
-    columns = ("{task.description}", BarColumn(), TaskProgressColumn(), "{task.fields[state]}")
+    columns = ("{task.description}", BarColumn(width), TaskProgressColumn(), "{task.fields[state]}")
     progress = Progress(*columns, TimeRemainingColumn(), console=console)
     task = progress.add_task(label, total=None, state="")
     waiting = console.status(f"preparing: {label}")

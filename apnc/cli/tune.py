@@ -3,10 +3,14 @@
 
 from __future__ import annotations
 
+import math
 import os
-import shlex
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 from typer import Argument, Option
 
@@ -16,6 +20,12 @@ from apnc.cli.interrupt import STOP, Interrupted
 if TYPE_CHECKING:
     from apnc.tune import Tuned, Validation
     from apnc.tune.search import Best, Count
+
+BAR: Final = 14
+"""Width of the bar [characters]; what was found so far is beside it in a row of 80."""
+
+QUIET_S: Final = 60.0
+"""Longest time without a line where there is no terminal [s]."""
 
 
 def tune(
@@ -33,6 +43,12 @@ def tune(
     mi: Annotated[
         str | None, Option(help="MI range to aim at, as 0.08,0.28. The search may scale it.")
     ] = None,
+    paper: Annotated[
+        bool,
+        Option(
+            "--paper", help="Judge by the paper's other experiments as well, at MI 0.04 to 0.40."
+        ),
+    ] = False,
     keep_servo: Annotated[
         bool, Option("--keep-servo", help="Leave stiffness and damping of the servos as they are.")
     ] = False,
@@ -51,44 +67,82 @@ def tune(
 
     Ctrl-C keeps the best so far. Needs the extra tune.
     """
-    from apnc.tune import MI_AIMED, Allowed, in_words
+    from apnc.tune import Allowed, Stopped
     from apnc.tune import tune as find
     from apnc.tune.report import write_report
+    from apnc.tune.tuned_file import path_of
+    from build_fmu.writing import write_atomically
 
     if output.suffix != ".toml":
         raise ValueError(f"--output is {output}; allowed: a name that ends in .toml")
     log, page = output.with_suffix(".csv"), output.with_suffix(".html")
-    from apnc.tune.tuned_file import path_of
-
     apart({"--output": output}, {"the robot": [path_of(robot)]})
+    _refuse_earlier((output, log, page), log, resume=resume)
     writable(output, file=True)
-    with bar(f"tune {Path(robot).stem}") as show:
-
-        def progress(best: Best, count: Count, share: float) -> None:
-            words = in_words(best)
-            show(share, 1.0, lambda _: f"{count.candidates} candidates, {words}")
-
-        tuned = find(
-            robot,
-            minutes=minutes,
-            candidates=candidates,
-            seed=seed,
-            mi=_range(mi) if mi is not None else MI_AIMED,
-            allowed=Allowed(servo=not keep_servo, body=body),
-            workers=workers if workers is not None else os.cpu_count() or 1,
-            scheduler=scheduler,
-            log=log,
-            resume=resume,
-            progress=progress,
-            stop=STOP,
-        )
-    output.write_text(tuned.text, encoding="utf-8")
+    with _shown() as progress:
+        try:
+            tuned = find(
+                robot,
+                minutes=minutes,
+                candidates=candidates,
+                seed=seed,
+                mi=_range(mi) if mi is not None else None,
+                paper=paper,
+                allowed=Allowed(servo=not keep_servo, body=body),
+                workers=workers if workers is not None else os.cpu_count() or 1,
+                scheduler=scheduler,
+                log=log,
+                resume=resume,
+                progress=progress,
+                stop=STOP,
+            )
+        except Stopped:
+            raise Interrupted("interrupted before a robot was found, nothing written") from None
+    write_atomically(output, tuned.text.encode("utf-8"))
+    write_report(page, tuned, output)
     _say(tuned, output)
-    if tuned.validation is not None:
-        write_report(page, tuned, output)
-        say_file("report", page)
+    say_file("report", page)
     if STOP.asked:
-        raise Interrupted("interrupted; --resume goes on with the search")
+        raise Interrupted(f"interrupted; {output} is the best so far, --resume goes on")
+
+
+def _refuse_earlier(files: Sequence[Path], log: Path, *, resume: bool) -> None:
+    """Refuse an output of an earlier search: a robot is never left beside the log of another one.
+
+    Raises:
+        ValueError: there is one, and it is not to be resumed or has no log.
+    """
+    there = [file for file in files if file.exists()]
+    if not there or (resume and log.exists()):
+        return
+    names = ", ".join(map(str, there))
+    if resume:
+        raise ValueError(f"--resume needs the log {log}, which is missing beside {names}")
+    raise ValueError(
+        f"--output: an earlier search has written {names}; allowed: --resume, to go on with it, "
+        "another --output, or to remove what it has written"
+    )
+
+
+@contextmanager
+def _shown() -> Iterator[Callable[[Best, Count, float], None]]:
+    """Progress of a search: a bar in a terminal, elsewhere a line now and then."""
+    from apnc.tune import in_words
+
+    if sys.stderr.isatty():
+        with bar("tune", BAR) as show:
+            yield lambda best, count, share: show(share, 1.0, lambda _: in_words(best))
+        return
+    told, last = "", -math.inf
+
+    def tell(best: Best, count: Count, share: float) -> None:
+        nonlocal told, last
+        words, now = in_words(best), time.monotonic()
+        if words != told or now - last >= QUIET_S or share == 1.0:
+            told, last = words, now
+            say(f"{share:4.0%}, {count.candidates} candidates: {words}", error=True)
+
+    yield tell
 
 
 def _range(text: str) -> tuple[float, float]:
@@ -100,57 +154,30 @@ def _range(text: str) -> tuple[float, float]:
 
 
 def _say(tuned: Tuned, output: Path) -> None:
+    from apnc.tune.wording import lines_to_paste
+
     count = tuned.count
     rate = count.simulated / count.wall if count.wall > 0.0 else 0.0
     say(
-        f"{count.candidates} candidates in {count.wall / 60.0:.1f} min, {rate:.0f} simulated seconds"
-        f" a second; found again by\n{tuned.command}\n"
+        f"{count.candidates} candidates in {count.wall / 60.0:.1f} min, {rate:.0f} simulated "
+        f"seconds a second; found again by\n{tuned.command}\n"
     )
     if tuned.validation is not None:
         _say_validation(tuned.validation)
     say("")
-    for line in lines_to_paste(output):
+    for _, line in lines_to_paste(output):
         say(line)
 
 
-def lines_to_paste(output: Path) -> tuple[str, ...]:
-    """Commands that walk a tuned robot, study it and build its FMU."""
-    name = shlex.quote(str(output))
-    return (
-        f"apnc walk --robot {name} --engine compiled",
-        f"apnc study mi --robot {name} --trials 3",
-        f"apnc build --robot {name}",
-    )
-
-
 def _say_validation(found: Validation) -> None:
+    from apnc.tune.wording import COLUMNS, others, table
+
     seeds = len(found.cells[0].runs)
     say(f"walks in a {found.gait} that holds, of {seeds} seeds that the search has not seen")
-    kinds = ("walk", "apc", "varied")
-    columns = {kind: {cell.mi: cell for cell in found.of(kind)} for kind in kinds}
-    show_table(
-        (
-            [
-                f"{mi:.3g}",
-                *(str(columns[kind][mi].good) for kind in kinds),
-                f"{cell.time * found.time:.1f}",
-                f"{cell.middle('speed') * found.speed:.3f}",
-                f"{1e3 * cell.middle('lift') * found.length:.1f}",
-                f"{100.0 * cell.middle('slip'):.0f}",
-            ]
-            for mi, cell in columns["walk"].items()
-        ),
-        "MI", "with ANC", "APC alone", "body off by 10 %", "after [s]", "m/s", "lift [mm]",
-        "slip [%]",
-    )  # fmt: skip
-    for kind, words in (
-        ("payload", "payload of a fifth of its mass"),
-        ("sensor", "one foot sensor dead"),
-        ("air", "let down from the air"),
-    ):
-        for cell in found.of(kind):
-            say(f"{words}, MI {cell.mi:.3g}: {cell.good} of {len(cell.runs)}")
+    show_table(table(found), *COLUMNS)
+    for line in others(found):
+        say(line)
     missed = found.missed()
     say("\nnot reached" if missed else "\nall aims reached")
-    for line in missed:
-        say(f"- {line}")
+    for each in missed:
+        say(f"- {each.words}")

@@ -12,7 +12,7 @@ import numpy as np
 
 from apnc_core.types import Array
 
-_CHECK: Final = "check"
+CHECK: Final = "check"
 """In place of the number of a candidate: the favourite of the generation was checked."""
 
 _FIRST: Final = ("generation", "candidate", "cost")
@@ -71,7 +71,7 @@ class Log:
         if head != self._head:
             raise ValueError(f"{self.path} is of a search of other numbers")
         for generation, number, cost, x in rows:
-            if number == _CHECK:
+            if number == CHECK:
                 self._checks[generation] = cost
             else:
                 self._known.setdefault(generation, {})[number] = cost, x
@@ -108,7 +108,7 @@ class Log:
         """Add the cost of a check, unless the log has it."""
         if generation not in self._checks:
             self._checks[generation] = cost
-            self._add(_line([generation, _CHECK, repr(cost)]))
+            self._add(_line([generation, CHECK, repr(cost)]))
 
     def _add(self, text: str) -> None:
         if self.path is None:
@@ -162,7 +162,7 @@ def _first_line(head: str, path: Path | None = None) -> dict[str, Any]:
 def _row(values: Sequence[str], columns: int) -> Row:
     """A row; ValueError for one that is none."""
     generation, number, cost, *x = values
-    if len(values) != (len(_FIRST) if number == _CHECK else columns):
+    if len(values) != (len(_FIRST) if number == CHECK else columns):
         raise ValueError
     return int(generation), number, float(cost), [float(value) for value in x]
 

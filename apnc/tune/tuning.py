@@ -13,10 +13,10 @@ from typing import Any, Final
 
 from apnc.extras import missing
 from apnc.loop.batch import Stop
-from apnc.tune.costs import target
-from apnc.tune.design import MI_AIMED, Candidate, Start, variables_for
+from apnc.tune.design import MI_AIMED, MI_OF_PAPER, Candidate, Start, variables_for
 from apnc.tune.evaluate import Evaluator, Stopped, cluster
 from apnc.tune.log import Log
+from apnc.tune.measured import target
 from apnc.tune.search import Best, Count, search
 from apnc.tune.tuned_file import path_of, read_back, tuned_text
 from apnc.tune.validation import SEEDS, Validation, validated
@@ -70,7 +70,8 @@ def tune(
     minutes: float | None = None,
     candidates: int | None = None,
     seed: int = 1,
-    mi: tuple[float, float] = MI_AIMED,
+    mi: tuple[float, float] | None = None,
+    paper: bool = False,
     allowed: Allowed | None = None,
     workers: int = 1,
     scheduler: str | None = None,
@@ -87,10 +88,13 @@ def tune(
 
     Args:
         robot: a robot file, or the name of a shipped robot.
-        minutes: how long to search [min], but until something was tried; ``MINUTES`` if neither this nor ``candidates`` is given.
+        minutes: how long to search [min]; ``MINUTES`` if neither this nor ``candidates`` is given.
         candidates: how many candidates to try; 0: the robot of the file alone.
         seed: of the optimiser and all runs, 1 to 2^20.
-        mi: MI range that is aimed at; the search may scale it.
+        mi: MI range that is aimed at; ``MI_AIMED``, or ``MI_OF_PAPER`` if omitted. The search may
+            scale it, but not for the paper.
+        paper: judge by the paper's other experiments as well: update rates, states S1 to S3,
+            payload, a damaged leg, turns, and a speed that doubles from MI 0.15 to 0.40.
         allowed: what may be changed; the defaults of :class:`Allowed` if omitted.
         workers: number of threads.
         scheduler: address of a Dask scheduler whose workers walk instead.
@@ -106,6 +110,7 @@ def tune(
         RuntimeError: a package of the extra ``tune`` is missing.
         Stopped: it was stopped before anything was found.
     """
+    mi = mi or (MI_OF_PAPER if paper else MI_AIMED)
     _check(minutes, candidates, seed, mi, workers, seeds)
     _check_packages()
     allowed = allowed or Allowed()
@@ -116,7 +121,8 @@ def tune(
         description,
         description.rate or 1.0 / float(variable_named("Ts").start or 0.0),
         mi,
-        variables_for(servo=allowed.servo, body=allowed.body),
+        variables_for(servo=allowed.servo, body=allowed.body, scale=not paper),
+        paper,
     )
     lines = Log(log)
     lines.begin(
@@ -124,7 +130,7 @@ def tune(
         {
             "robot": hashlib.sha256(path_of(robot).read_bytes()).hexdigest()[:16],
             "seed": seed, "mi": list(mi), "servo": allowed.servo, "body": allowed.body,
-            "version": __version__,
+            "paper": paper, "version": __version__,
         },
         resume=resume,
     )  # fmt: skip
@@ -147,7 +153,7 @@ def tune(
         best, count = search(
             start, evaluator, lines, seed=seed, candidates=candidates, progress=told
         )
-        again = _command(robot, seed, count, mi, allowed)
+        again = _command(robot, seed, count, mi, allowed, paper)
         found = replace(best.candidate.robot, mi=_usual(best.candidate))
         text = tuned_text(robot, found, [f"Tuned by {again}, version {__version__}."])
         tuned = read_back(text)
@@ -192,10 +198,16 @@ def _check_packages() -> None:
 
 
 def _command(
-    robot: str | Path, seed: int, count: Count, mi: tuple[float, float], allowed: Allowed
+    robot: str | Path,
+    seed: int,
+    count: Count,
+    mi: tuple[float, float],
+    allowed: Allowed,
+    paper: bool,
 ) -> str:
     words: list[Any] = ["apnc", "tune", robot, "--candidates", count.checked, "--seed", seed]
-    if mi != MI_AIMED:
+    words += ["--paper"] if paper else []
+    if mi != (MI_OF_PAPER if paper else MI_AIMED):
         words += ["--mi", f"{mi[0]:g},{mi[1]:g}"]
     words += ([] if allowed.servo else ["--keep-servo"]) + (["--body"] if allowed.body else [])
     return shlex.join(map(str, words))

@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 from statistics import median
-from typing import Final
+from typing import Final, NamedTuple
 
 from apnc import metrics
-from apnc.tune.costs import Measured
 from apnc.tune.design import Candidate, Start
 from apnc.tune.evaluate import Evaluator
+from apnc.tune.measured import Measured
 from apnc.tune.runs import MARGIN, of_validation
 from apnc.tune.search import Best
 from apnc.tune.stance import leg_length
@@ -64,6 +64,18 @@ class Cell:
         return float(median(getattr(run, name) for run in self.runs))
 
 
+class Missed(NamedTuple):
+    """An aim that was not reached.
+
+    Args:
+        aim: which, in a few words.
+        words: what was found instead, in a line.
+    """
+
+    aim: str
+    words: str
+
+
 @dataclass(frozen=True)
 class Validation:
     """What a tuned robot does.
@@ -86,41 +98,47 @@ class Validation:
         """Cells of a kind, by growing MI."""
         return [cell for cell in self.cells if cell.kind == kind]
 
-    def missed(self) -> list[str]:
-        """Aims that were not reached, in words; none if all were."""
-        words = []
+    def missed(self) -> list[Missed]:
+        """Aims that were not reached; none if all were."""
+        found = []
         walks, alone = self.of("walk"), self.of("apc")
         for cells, what, aim in (
             (walks, "with ANC", 1.0),
             (alone, "with APC alone", AIM_ALONE),
-            (self.of("varied"), f"on bodies off by up to {MARGIN:.0%}", AIM_ALONE),
+            (self.of("varied"), f"on bodies off by up to {percent(MARGIN)}", AIM_ALONE),
             (self.of("payload"), "with a payload of a fifth of its mass", AIM_ALONE),
             (self.of("sensor"), "with one foot sensor dead", AIM_ALONE),
             (self.of("air"), "let down from the air", AIM_ALONE),
         ):
             for cell in cells:
                 if cell.good < aim * len(cell.runs):
-                    words.append(
-                        f"{what}, MI {cell.mi:.3g}: {cell.good} of {len(cell.runs)} walk in a "
-                        f"{self.gait} that holds"
+                    found.append(
+                        Missed(
+                            what,
+                            f"{what}, MI {cell.mi:.3g}: {cell.good} of {len(cell.runs)} walk in a "
+                            f"{self.gait} that holds; aimed at {math.ceil(aim * len(cell.runs))}",
+                        )
                     )
         for cell in walks:
             lift, slip = cell.middle("lift"), cell.middle("slip")
             if lift < AIM_LIFT:
-                words.append(
+                words = (
                     f"MI {cell.mi:.3g}: the lowest foot lifts by {1e3 * lift * self.length:.1f}"
-                    f" mm, {lift:.1%} of the leg; aimed at {AIM_LIFT:.0%}"
+                    f" mm, {percent(lift, 1)} of the leg; aimed at {percent(AIM_LIFT)}"
                 )
+                found.append(Missed("lift of the feet", words))
             if slip > AIM_SLIP:
-                words.append(
-                    f"MI {cell.mi:.3g}: a foot slips by {slip:.0%} of the stride; aimed at "
-                    f"{AIM_SLIP:.0%}"
+                words = (
+                    f"MI {cell.mi:.3g}: a foot slips by {percent(slip)} of the stride; aimed at "
+                    f"at most {percent(AIM_SLIP)}"
                 )
+                found.append(Missed("slip of the feet", words))
         speeds = [cell.middle("speed") for cell in walks]
         if any(later <= before for before, later in pairwise(speeds)):
             told = ", ".join(f"{speed * self.speed:.3f}" for speed in speeds)
-            words.append(f"its speed does not grow with MI throughout: {told} m/s")
-        return words
+            words = f"its speed does not grow with MI throughout: {told} m/s"
+            found.append(Missed("speed", words))
+        return found
 
 
 def validated(
@@ -150,8 +168,12 @@ def in_words(best: Best) -> str:
     gait, length = metrics.gait_name(len(robot.legs)), leg_length(robot)
     walks = [run for run in best.runs if run.kind == "walk"]
     good = [run for run in walks if run.good]
-    alone = sum(run.good for run in best.runs if run.kind == "apc")
-    words = f"{gait} at {len(good)} of {len(walks)} MI, at {alone} without couplings"
+    words = f"{gait} at {len(good)} of {len(walks)} MI"
     if good:
         words += f", lowest lift {1e3 * length * min(run.lift for run in good):.1f} mm"
     return words
+
+
+def percent(share: float, digits: int = 0) -> str:
+    """A share as text, e.g. ``10 %``."""
+    return f"{100.0 * share:.{digits}f} %"
