@@ -15,6 +15,13 @@ from apnc.tune.runs import GAIT_KINDS, Task
 FAILED: Final = 8.0
 """Cost of a run whose robot fell at once or whose motion diverged."""
 
+SPARED: Final = 0.3
+"""What of it a run is spared whose robot falls at the end, as a share of it."""
+
+MILD: Final = 4.0
+"""Cost up to which a run that does not fall costs as much as it does badly. Above, costs grow
+less and less and stay below that of any fall: a search is never paid for throwing a robot over."""
+
 WANTED_SPEED: Final = (0.065, 0.08)
 """Speed without cost [sqrt(g L)]: at the lowest MI, and what is added until the highest."""
 
@@ -25,9 +32,16 @@ WANTED_TURN: Final = math.radians(10.0) / 45.0
 def cost_of(run: Measured) -> float:
     """Cost of a run."""
     if run.fell < 1.0:
-        return FAILED * (1.0 - 0.3 * run.fell)
-    if run.kind not in GAIT_KINDS:
-        return cost_of_paper(run)
+        return FAILED * (1.0 - SPARED * run.fell)
+    cost = _cost_of_gait(run) if run.kind in GAIT_KINDS else cost_of_paper(run)
+    if cost <= MILD:
+        return cost
+    room = FAILED * (1.0 - SPARED) - MILD
+    return MILD + room * (1.0 - math.exp((MILD - cost) / room))
+
+
+def _cost_of_gait(run: Measured) -> float:
+    """Cost of a run that is to show the gait, and did not fall."""
     cost = 2.0 * min(run.mean_error / np.pi, 1.0) + 1.5 * run.end_error
     cost += 0.4 * (not run.strict) + 0.4 * (not run.walks)
     wanted = WANTED_SPEED[0] + WANTED_SPEED[1] * run.share
