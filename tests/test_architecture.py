@@ -30,7 +30,7 @@ PARTS_OF_APNC = (
     ("features",),
     ("many", "walking"),
     ("importing", "report", "system"),
-    ("studies",),
+    ("studies", "view"),
     ("tune",),
     ("cli",),
     ("__main__",),

@@ -1,0 +1,1 @@
+"""A walk live in the browser, on this machine only."""
