@@ -27,7 +27,6 @@ from apnc.cli.console import (
     status,
     writable,
 )
-from apnc.cli.live import check_view, viewed
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.cli.live import check_view, viewed
 from apnc.controllers import CONTROLLERS
