@@ -15,6 +15,7 @@ from apnc.feet import Feet
 from apnc.loop.experiment import Experiment
 from apnc.loop.many import walk_many
 from apnc.loop.record import Record
+from apnc.tune import MI_AIMED
 from apnc.varied import varied
 from apnc.walking import goes_forward, moves
 from apnc_plant.robot import RobotDescription
@@ -26,9 +27,6 @@ CONTROLLERS: Final = {"ANC": "apnc", "APC": "apc"}
 """Labels of the controllers: with couplings, and adaptive physical communication alone."""
 
 MI_COUNT: Final = 5
-UNTUNED_MI: Final = (0.06, 0.28)
-"""MI range of a robot whose file says none, that at which a search begins."""
-
 WALK_S: Final = 30.0
 """Length of a walk [s] of a robot that takes 60 ticks a second, others take as many ticks."""
 
@@ -72,8 +70,11 @@ class Walk:
 
 
 def mi_values(robot: RobotDescription) -> list[float]:
-    """Five MI over the range of a robot, each by the same factor above the one before."""
-    low, high = robot.mi_range or UNTUNED_MI
+    """Five MI over the range of a robot, each by the same factor above the one before.
+
+    A robot whose file says none walks over the range that ``apnc tune`` aims at.
+    """
+    low, high = robot.mi_range or MI_AIMED
     return [round(float(mi), 4) for mi in np.geomspace(low, high, MI_COUNT)]
 
 

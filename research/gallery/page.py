@@ -12,7 +12,8 @@ import numpy as np
 from jinja2 import Environment, StrictUndefined
 
 from apnc.studies.table import markdown
-from research.gallery.measure import CONTROLLERS, OFF, UNTUNED_MI, Walk, chosen, median
+from apnc.tune import MI_AIMED
+from research.gallery.measure import CONTROLLERS, OFF, Walk, chosen, median
 from research.gallery.robots import GalleryRobot
 
 TEMPLATE: Final = Path(__file__).with_name("gallery.md.j2")
@@ -106,7 +107,7 @@ def text(
     )
     return template.render(
         about=about, summary=summary(found, titles), films="\n".join(pictures),
-        table=markdown(rows), tuned=any(tuned), untuned=None if all(tuned) else UNTUNED_MI,
+        table=markdown(rows), tuned=any(tuned), untuned=None if all(tuned) else MI_AIMED,
         apc=round(STRICT["APC"] * about["seeds"]), lift=_percent(LIFT), slip=_percent(SLIP),
         off=f"{100.0 * OFF:.0f} %",
         refused=[(titles[name], why) for name, why in sorted(about["refused"].items())],
