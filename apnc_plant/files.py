@@ -180,6 +180,7 @@ def _schema_at(model: Any, location: Location) -> dict[str, Any]:
         whole = _adapter(model).json_schema()
         schema = _resolved(whole, whole.get("$defs", {}))
         for key in location:
+            schema = _of_optional(schema)
             if isinstance(key, int):
                 schema = schema["prefixItems"][key] if "prefixItems" in schema else schema["items"]
             else:
@@ -187,7 +188,13 @@ def _schema_at(model: Any, location: Location) -> dict[str, Any]:
                 schema = known[key] if key in known else schema["additionalProperties"]
     except (PydanticUserError, TypeError, KeyError, IndexError):
         return {}
-    return cast(dict[str, Any], schema)
+    return _of_optional(cast(dict[str, Any], schema))
+
+
+def _of_optional(schema: dict[str, Any]) -> dict[str, Any]:
+    """Schema of the table that may be left out; the schema itself if it is of something else."""
+    tables = [each for each in schema.get("anyOf", ()) if "properties" in each]
+    return tables[0] if len(tables) == 1 else schema
 
 
 def _resolved(node: Any, named: Mapping[str, Any]) -> Any:

@@ -48,7 +48,7 @@ def _say(found: ImportedRobot, file: Path) -> None:
         (
             [
                 leg.name,
-                *(each.words() for each in found.joints if each.leg == leg.name),
+                *(each.words() for each in robot.joint_map if each.leg == leg.name),
                 own.foot.name,
             ]
             for leg, own in zip(robot.legs, found.legs, strict=True)

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from apnc.importing.joint_map import JointMap, joint_maps
+from apnc.importing.joint_map import joint_maps
 from apnc.importing.legs import LegGeometry, leg_geometry
 from apnc.importing.limbs import Limbs, limbs_of
 from apnc.importing.mjcf import read_mjcf
@@ -38,7 +38,6 @@ class ImportedRobot:
         robot: the same as a robot.
         legs: what was found of its legs, in the order of ``robot.legs``.
         stance: how it stands, which is its reference pose.
-        joints: how its joints are counted in the file.
         estimates: numbers that are not the file's.
         dropped: what of the file is not in the robot, in words.
     """
@@ -47,7 +46,6 @@ class ImportedRobot:
     robot: RobotDescription
     legs: tuple[LegGeometry, ...]
     stance: Stance
-    joints: tuple[JointMap, ...]
     estimates: tuple[Estimate, ...]
     dropped: tuple[str, ...]
 
@@ -118,7 +116,6 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
         robot,
         legs,
         stance,
-        joints,
         guessed.estimates,
         (*model.dropped, *limbs.folded, *stance.dropped, *guessed.dropped, *text.dropped,
          *_not_said(legs)),

@@ -14,13 +14,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from apnc.importing.joint_map import JointMap
 from apnc.importing.legs import LegGeometry
 from apnc.importing.model import ModelFileError
 from apnc.importing.scaling import Guessed
 from apnc.importing.stance import Stance
 from apnc_core.types import Array
-from apnc_plant.robot import MassProperties
+from apnc_plant.robot import JointMap, MassProperties
 
 DIGITS: Final = 14
 """Significant digits of a number in the file."""
@@ -108,7 +107,7 @@ def robot_text(found: Found, source: str) -> Text:
     }  # fmt: skip
     lines = [
         f"# Imported from {source}. SI units, angles in degrees; x forward, y to the left, z up.",
-        "# Behind '# in the file' stand its joints; q is the angle here, in rad.",
+        "# [legs.joints]: the joints of that file; its angle = offset + sign times the angle here.",
         "",
         f"name = {json.dumps(found.name, ensure_ascii=False)}",
         f"rate = {_value(found.guessed.rate)} # Hz, at which it moves as Lilibot does at 60 Hz",
@@ -118,9 +117,10 @@ def robot_text(found: Found, source: str) -> Text:
         lines += _table("leg", common)
     for name, leg in zip(found.names, written, strict=True):
         own = {key: value for key, value in leg.items() if key not in common}
-        joints = ", ".join(each.words() for each in found.joints if each.leg == name)
         own = {"name": json.dumps(name), **own}
-        lines += ["", f"# in the file: {joints}", *_table("[legs]", own)[1:]]
+        lines += _table("[legs]", own)
+        joints = {each.joint: _joint(each) for each in found.joints if each.leg == name}
+        lines += _table("legs.joints", joints)[1:]
     for table in ("servo", "contact", "sensor", "controller"):
         values: Mapping[str, Any] = getattr(found.guessed, table)
         lines += _table(table, {key: _value(value) for key, value in values.items()})
@@ -211,8 +211,14 @@ class _Boxes:
         return words
 
 
+def _joint(joint: JointMap) -> str:
+    return _value({"name": joint.name, "sign": joint.sign, "offset": math.degrees(joint.offset)})
+
+
 def _value(value: Any) -> str:
     """A value as TOML."""
+    if isinstance(value, int):
+        return json.dumps(value)
     if isinstance(value, str):
         return json.dumps(value)
     if isinstance(value, dict):

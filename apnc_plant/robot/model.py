@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import Annotated, Any, Final, Literal
 
@@ -16,6 +16,7 @@ from apnc_core.frozen import Frozen
 from apnc_core.types import Array
 from apnc_core.variables import variable_named
 from apnc_plant.files import Number, checked, limits
+from apnc_plant.robot.joint_map import JointMap
 
 
 class RobotDescriptionError(ValueError):
@@ -124,6 +125,30 @@ class Trunk(Body):
 
 
 @checked(RobotDescriptionError)
+class JointInFile:
+    """A joint of the robot's own model file: angle there = offset + sign angle here.
+
+    Args:
+        name: of the joint in the file.
+        sign: 1 or -1.
+        offset: angle there in the reference pose [rad].
+    """
+
+    name: Name
+    sign: Literal[1, -1] = 1
+    offset: Annotated[Number, limits("deg", ge=-360.0, le=360.0), WrapValidator(_angle)] = 0.0
+
+
+@checked(RobotDescriptionError)
+class JointsInFile:
+    """Joints of a leg in the robot's own model file; None where that is not known."""
+
+    abduction: JointInFile | None = None
+    hip: JointInFile | None = None
+    knee: JointInFile | None = None
+
+
+@checked(RobotDescriptionError)
 class Leg:
     """A leg with an abduction joint about x, and hip and knee joints about y.
 
@@ -137,6 +162,7 @@ class Leg:
         femur_angle: reference pose, femur back of vertical [rad].
         tibia_angle: reference pose, tibia forward of the femur [rad].
         hip, femur, tibia: mass properties of the three links, in frames at their joints.
+        joints: its joints in the robot's own model file.
     """
 
     name: Name
@@ -149,6 +175,7 @@ class Leg:
     hip: Body
     femur: Body
     tibia: Body
+    joints: JointsInFile = field(default_factory=JointsInFile)
 
     @property
     def side(self) -> float:
@@ -304,7 +331,8 @@ class RobotDescription:
     Raises:
         RobotDescriptionError: a value out of range; two legs of one name; right legs that are not
             half of all, rounded down (the controller takes the first n // 2 legs for the right
-            ones); no such parameter, or a value it cannot have; an ``mi`` outside ``mi_range``.
+            ones); no such parameter, or a value it cannot have; an ``mi`` outside ``mi_range``; two
+            joints of one name.
     """
 
     name: Name
@@ -324,11 +352,26 @@ class RobotDescription:
             low, high = self.mi_range
             if not low <= self.mi <= high:
                 raise ValueError(f"mi is {self.mi}; allowed: {low} to {high}, its mi_range [1]")
+        taken: dict[str, JointMap] = {}
+        for each in self.joint_map:
+            if (other := taken.setdefault(each.name, each)) is not each:
+                places = f"the {other.joint} of {other.leg} and the {each.joint} of {each.leg}"
+                raise ValueError(f"joint {each.name!r} is {places}; allowed: one of them")
 
     @property
     def leg_names(self) -> tuple[str, ...]:
         """Names of the legs, in the order of the controller."""
         return tuple(leg.name for leg in self.legs)
+
+    @property
+    def joint_map(self) -> tuple[JointMap, ...]:
+        """Joints of the robot's own model file, as far as they are known."""
+        return tuple(
+            JointMap(leg.name, joint.name, own.name, own.sign, own.offset)
+            for leg in self.legs
+            for joint in fields(JointsInFile)
+            if (own := getattr(leg.joints, joint.name)) is not None
+        )
 
     @property
     def mass(self) -> float:

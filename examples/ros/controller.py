@@ -3,7 +3,8 @@
 
 Subscribes to ``foot_loads`` (Float64MultiArray [N], legs in the order of the robot), ``mi`` and
 ``turn`` (Float64), ``reset`` (Bool). Publishes ``joint_commands`` (JointState [rad], relative to
-the reference pose) and ``diagnostics``.
+the reference pose) and ``diagnostics``. For a robot whose file maps its joints it also publishes
+``joint_commands_in_file``: the same with names and angles of the robot's own model file.
 
 Parameters: ``~robot`` (name or file), ``~mi``, ``~gait`` (gait file: written when a gait has been
 stored, read at the start, so that a node that is started again goes on with its gait).
@@ -40,10 +41,13 @@ class Node:
             rospy.loginfo("start with the gait of %s", self.gait_file)
         self.fmu = FmuController(host_fmu(len(self.legs)), parameters)
         self.loads, self.loads_at = np.zeros(len(self.legs)), rospy.get_time()
-        self.mi, self.turn, self.reset = float(rospy.get_param("~mi", 0.08)), 0.0, False
+        self.mi = float(rospy.get_param("~mi", experiment.mi))
+        self.turn, self.reset = 0.0, False
         self.late: list[float] = []
         self.joints = [f"{leg}_{joint}" for joint in ("hip", "knee") for leg in self.legs]
+        self.joint_map = experiment.description.joint_map
         self.commands = rospy.Publisher("joint_commands", JointState, queue_size=1)
+        self.in_file = rospy.Publisher("joint_commands_in_file", JointState, queue_size=1)
         self.diagnostics = rospy.Publisher("diagnostics", DiagnosticArray, queue_size=1)
         rospy.Subscriber("foot_loads", Float64MultiArray, self.take_loads, tcp_nodelay=True)
         rospy.Subscriber("mi", Float64, lambda message: setattr(self, "mi", message.data))
@@ -77,6 +81,15 @@ class Node:
         message.header.stamp = rospy.Time.now()
         message.position = [*self.fmu.theta_hip, *self.fmu.theta_knee]
         self.commands.publish(message)
+        if self.joint_map:
+            angles = dict(zip(message.name, message.position, strict=True))
+            own = JointState(name=[joint.name for joint in self.joint_map])
+            own.header.stamp = message.header.stamp
+            own.position = [
+                joint.in_file(angles.get(f"{joint.leg}_{joint.joint}", 0.0))  # abduction stays at 0
+                for joint in self.joint_map
+            ]
+            self.in_file.publish(own)
 
     def report(self, missing: bool) -> None:
         """Once a second: what the controller knows, how late its ticks were, and its gait kept."""

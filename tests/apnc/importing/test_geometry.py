@@ -125,14 +125,14 @@ def compare(found: ImportedRobot, spec: Any, trunk: str, foot: Any) -> None:
     data = mujoco.MjData(model)
     random = np.random.default_rng(1)
     for _ in range(5):
-        angles = {(j.leg, j.joint): random.uniform(-0.5, 0.5) for j in found.joints}
-        for j in found.joints:
+        angles = {(j.leg, j.joint): random.uniform(-0.5, 0.5) for j in found.robot.joint_map}
+        for j in found.robot.joint_map:
             at = model.joint(j.name).qposadr[0]
             data.qpos[at] = j.offset + j.sign * angles[j.leg, j.joint] + model.qpos0[at]
         mujoco.mj_kinematics(model, data)
         body = data.body(trunk)
         for leg, point in feet(found, angles).items():
-            names = [j.name for j in found.joints if j.leg == leg]
+            names = [j.name for j in found.robot.joint_map if j.leg == leg]
             turn = np.asarray(body.xmat).reshape(3, 3)
             there = turn.T @ (foot(names, model, data) - body.xpos)
             np.testing.assert_allclose(point, there, atol=1e-9)
@@ -157,7 +157,7 @@ def test_a_hip_axis_that_is_level_only_in_another_pose_is_counted_from_there(
     path = tmp_path / "dog.urdf"
     path.write_text(dog.text())
     found = import_robot(path)
-    for j in found.joints:
+    for j in found.robot.joint_map:
         if j.joint == "abduction":
             assert abs(j.offset) == pytest.approx(np.arctan2(0.6, 0.8))
     spec = mujoco.MjSpec.from_string(dog.text())
@@ -196,7 +196,7 @@ def test_arm_rotors_and_fixed_parts_keep_mass_and_centre_of_mass(tmp_path: Path)
     )  # fmt: skip
     data = mujoco.MjData(model)
     data.joint("arm_pitch").qpos[0] = 0.3  # 0 is not in its range
-    for j in found.joints:
+    for j in found.robot.joint_map:
         data.joint(j.name).qpos[0] = j.offset
     mujoco.mj_fwdPosition(model, data)
     assert found.robot.mass == pytest.approx(model.body_mass.sum(), abs=1e-6)
@@ -236,7 +236,7 @@ def test_the_stance_is_that_of_the_rule(tmp_path: Path) -> None:
     found = import_robot(path)
     assert found.stance.ratio == pytest.approx(1.05)
     half = MOUNT[0]
-    standing = feet(found, {(j.leg, j.joint): 0.0 for j in found.joints})
+    standing = feet(found, {(j.leg, j.joint): 0.0 for j in found.robot.joint_map})
     points = np.array(list(standing.values()))
     hips = np.mean([np.add(leg.mount, leg.hip_offset)[2] for leg in found.robot.legs])
     assert hips - points[:, 2] == pytest.approx(1.05 * half)
@@ -301,7 +301,7 @@ def test_a_named_pose_is_the_reference_pose(tmp_path: Path) -> None:
     path = tmp_path / "mutt.xml"
     path.write_text(mjcf())
     found = import_robot(path, "home")
-    offsets = {j.name: j.offset for j in found.joints}
+    offsets = {j.name: j.offset for j in found.robot.joint_map}
     # a joint counts from its ref in the file
     home = {"a": 0.0, "h": 0.7, "k": 1.2 - np.deg2rad(40.0)}
     for name, offset in offsets.items():

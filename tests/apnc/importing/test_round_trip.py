@@ -37,7 +37,7 @@ def assert_same(found: ImportedRobot, own: RobotDescription) -> None:
     for name in ("stall_torque", "no_load_speed", "stiffness", "damping", "reflected_inertia"):
         same(getattr(read.servo, name), getattr(own.servo, name))
     same(read.contact.foot_radius, own.contact.foot_radius)
-    for each in found.joints:
+    for each in found.robot.joint_map:
         assert each.sign == 1.0
         same(each.offset, 0.0)
 

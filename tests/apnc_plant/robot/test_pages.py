@@ -13,6 +13,7 @@ from apnc_plant.robot import (
     ROBOTS,
     Body,
     Contact,
+    JointInFile,
     Leg,
     RobotDescription,
     Sensor,
@@ -64,6 +65,7 @@ def test_every_key_is_on_the_page(path: str) -> None:
 def test_the_page_lists_no_key_that_is_gone() -> None:
     known = {f"{path}.{name}" for path, part in PARTS.items() for name in units(part)}
     known |= {f"leg.{link}.{name}" for link in ("femur", "tibia") for name in units(Body)}
+    known |= {f"legs[k].joints.JOINT.{name}" for name in units(JointInFile)}
     known |= {"name", "rate", "mi_range", "mi", "legs[k].name", "legs[k].mount", "controller.NAME"}
     assert set(listed()) <= known
 
