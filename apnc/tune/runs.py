@@ -43,7 +43,7 @@ HELD_AT: Final = 0.06
 MI_COUNT: Final = 5
 """Number of MI at which a candidate walks in a generation, and in a validation."""
 
-BODIES: Final = 3
+BODIES: Final = 2
 """Number of bodies of a generation; runs share them, since one takes milliseconds to make."""
 
 COARSE: Final = 0.7
