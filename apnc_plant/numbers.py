@@ -108,6 +108,8 @@ def leg_numbers(leg: Leg) -> dict[str, Any]:
         "femur_angle": leg.femur_angle,
         "tibia_angle": leg.tibia_angle,
         "link": [_body(link.body) for link in links_of(leg)],
+        "abduction_angle": leg.side * leg.abduction_angle,
+        "knee_in_front": int(leg.knee == ">"),
     }
 
 

@@ -11,10 +11,11 @@ import numpy as np
 
 from apnc_core.types import Array
 from apnc_plant.coordinates import BASE
-from apnc_plant.robot.links import links_of
+from apnc_plant.robot.links import Link, links_of
 from apnc_plant.robot.model import Leg, MassProperties, RobotDescription, Vector3
 from exudyn_models.engine import exu, items
 
+UPRIGHT: Final = np.eye(3)
 MASSLESS: Final = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
 
 Forces = Callable[[Any, float, int, list[float], list[float]], list[float]]
@@ -38,13 +39,13 @@ class _Links:
         joint: Any,
         parent: int,
         offset: Vector3 = (0.0, 0.0, 0.0),
-        pitch: float = 0.0,
+        rotation: Array = UPRIGHT,
         body: MassProperties = MASSLESS,
     ) -> int:
         self.types.append(joint)
         self.parents.append(parent)
         self.offsets.append(np.array(offset))
-        self.rotations.append(_rotation_y(pitch))
+        self.rotations.append(rotation)
         self.masses.append(body.mass)
         self.inertias.append(body.inertia)
         self.coms.append(body.com)
@@ -99,9 +100,8 @@ def _add_base(links: _Links, trunk: MassProperties) -> int:
 def _add_leg(links: _Links, leg: Leg, trunk: int) -> None:
     at, kind = trunk, exu().JointType
     for link in links_of(leg):
-        about_x = link.axis[0] != 0.0
-        joint = kind.RevoluteX if about_x else kind.RevoluteY
-        at = links.add(joint, at, link.position, link.pitch, link.body)
+        joint = kind.RevoluteX if link.axis[0] != 0.0 else kind.RevoluteY
+        at = links.add(joint, at, link.position, _rotation(link), link.body)
 
 
 def _tree_object(links: _Links, node: Any, gravity: float, forces: Forces) -> Any:
@@ -126,6 +126,9 @@ def _add_reflected_inertia(mbs: Any, node: Any, size: int, inertia: float) -> No
     mbs.AddObject(items().ObjectGenericODE2(nodeNumbers=[node], massMatrix=np.diag(diagonal)))
 
 
-def _rotation_y(angle: float) -> Array:
-    c, s = cos(angle), sin(angle)
+def _rotation(link: Link) -> Array:
+    """Rotation from the frame of a link to its parent's in the reference pose."""
+    c, s = cos(link.turn), sin(link.turn)
+    if link.axis[0] != 0.0:
+        return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])

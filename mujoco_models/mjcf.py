@@ -38,7 +38,7 @@ _add = ElementTree.SubElement
 def tree_mjcf(robot: RobotDescription, trunk: MassProperties) -> str:
     """The robot in the coordinates of ``apnc_plant.coordinates``, for ``mujoco_models.plant``.
 
-    The base has three slides and three hinges, and hip and knee turn about +y. The model has
+    The base has three slides and three hinges. The model has
     neither actuators nor a ground: the plant computes all forces.
 
     Args:
@@ -127,14 +127,15 @@ def _leg(trunk: Element, leg: Leg, robot: RobotDescription, foot: Geom | None = 
     """A leg: with contact parameters of its foot for other programs, without for our own plant."""
     at = trunk
     for link, box in zip(links_of(leg), (leg.hip, leg.femur, leg.tibia), strict=True):
-        turn = (cos(link.pitch / 2.0), 0.0, sin(link.pitch / 2.0), 0.0)
+        half = link.turn / 2.0
+        turn = (cos(half), *(sin(half) * part for part in link.axis))
         at = _add(
             at, "body", name=f"{leg.name}_{link.name}",
             pos=_numbers(link.position), quat=_numbers(turn),
         )  # fmt: skip
         joint = _add(
             at, "joint", name=f"{leg.name}_{link.joint}",
-            axis=_numbers(link.axis if foot else map(abs, link.axis)),
+            axis=_numbers(link.positive if foot else link.axis),
             armature=repr(robot.servo.reflected_inertia),
         )  # fmt: skip
         _inertial(at, link.body)

@@ -22,6 +22,7 @@ from apnc_plant.library import declarations, library
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription
+from apnc_plant.robot.links import links_of
 from apnc_plant.robot.model import PAYLOAD_SIZE
 from apnc_plant.signals import PLANT_SIGNALS
 from build_fmu.library import headers
@@ -100,17 +101,7 @@ def robot_data(name: str) -> dict[str, Any]:
         "payload": PAYLOAD_SIZE,
         "footRadius": robot.contact.foot_radius,
         "weight": robot.weight,
-        "chains": [
-            {
-                "mount": leg.mount,
-                "hip": leg.outward(leg.hip_offset),
-                "femur": leg.femur_length,
-                "tibia": leg.tibia_length,
-                "femurAngle": leg.femur_angle,
-                "tibiaAngle": leg.tibia_angle,
-            }
-            for leg in robot.legs
-        ],
+        "chains": chains_of(robot),
         "gaits": metrics.GAITS.get(n, {}),
         "gait": metrics.gait_name(n),
         "mi": START[name][0],
@@ -120,6 +111,27 @@ def robot_data(name: str) -> dict[str, Any]:
         },
         "columns": [column for signal in PLANT_SIGNALS for column in signal.columns(legs)],
     }
+
+
+def chains_of(robot: RobotDescription) -> list[dict[str, Any]]:
+    """The legs as ``chainOf`` of the page takes them: their links and the joints that move them."""
+    return [
+        {
+            "mount": leg.mount,
+            "tibia": leg.tibia_length,
+            "links": [
+                {
+                    "position": link.position,
+                    "axis": link.axis,
+                    "turn": link.turn,
+                    "sign": link.sign,
+                    "angle": k,
+                }
+                for k, link in enumerate(links_of(leg))
+            ],
+        }
+        for leg in robot.legs
+    ]
 
 
 def _floats(parameters: Mapping[str, Any]) -> dict[str, Any]:

@@ -50,9 +50,8 @@ def frames_of(record: Record) -> list[Frame]:
         parent = TRUNK
         for link, angle in zip(links_of(leg), signals["joint_angle"][:, number].T, strict=True):
             name = f"{leg.name}_{link.name}"
-            rotation = Rotation.from_euler("y", link.pitch) * Rotation.from_rotvec(
-                np.outer(angle, link.axis)
-            )
+            turned = link.turn + link.sign * angle
+            rotation = Rotation.from_rotvec(np.outer(turned, link.axis))
             place = np.tile(link.position, (count, 1))
             frames.append(Frame(parent, name, place, rotation.as_quat()))
             parent = name

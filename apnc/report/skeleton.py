@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from apnc_core.types import Array
 from apnc_plant.ground import Ground
-from apnc_plant.robot import RobotDescription
+from apnc_plant.robot import Leg, RobotDescription
+from apnc_plant.robot.links import links_of
 
 Plant = Mapping[str, Array]
 
@@ -21,23 +23,25 @@ def trunk_corners(robot: RobotDescription, plant: Plant) -> Array:
 def leg_chains(robot: RobotDescription, plant: Plant) -> Array:
     """Points of every leg [m], shape (T, n, 4, 3): hip1, hip2, knee, foot.
 
-    Positive hip and knee angles swing the leg forward. The foot is the recorded one. With another
-    robot than that of the record, tibias have a wrong length but feet stay on the ground.
+    The foot is the recorded one. With another robot than that of the record, tibias have a wrong
+    length but feet stay on the ground.
     """
-    abduction, hip, _ = np.moveaxis(plant["joint_angle"], -1, 0)
-    legs = robot.legs
-    lean = hip - np.array([leg.femur_angle for leg in legs])
-    femur = np.stack([np.sin(lean), np.zeros_like(lean), -np.cos(lean)], axis=-1)
-    femur *= np.array([[leg.femur_length] for leg in legs])
-    hip1 = np.broadcast_to(np.array([leg.mount for leg in legs]), femur.shape)
-    to_hip2 = np.broadcast_to(np.array([leg.outward(leg.hip_offset) for leg in legs]), femur.shape)
-    links = np.stack([np.zeros_like(femur), to_hip2, to_hip2 + femur])  # before abduction
-    x, y, z = np.moveaxis(links, -1, 0)
-    cos, sin = np.cos(abduction), np.sin(abduction)
-    turned = np.stack([x, cos * y - sin * z, sin * y + cos * z], axis=-1) + hip1
-    joints = _in_world(plant, np.concatenate([*turned], axis=1))
-    joints = joints.reshape(len(joints), 3, len(legs), 3).swapaxes(1, 2)
+    angles = np.moveaxis(plant["joint_angle"], 0, -1)
+    chains = [_chain(leg, own) for leg, own in zip(robot.legs, angles, strict=True)]
+    joints = _in_world(plant, np.concatenate(chains, axis=1))
+    joints = joints.reshape(len(joints), len(chains), 3, 3)
     return np.concatenate([joints, plant["foot_position"][:, :, None]], axis=2)
+
+
+def _chain(leg: Leg, angles: Array) -> Array:
+    """Joints of a leg in the trunk [m], shape (T, 3, 3), from its angles, shape (3, T)."""
+    frame, at, found = Rotation.identity(), np.zeros((angles.shape[1], 3)), []
+    for link, angle in zip(links_of(leg), angles, strict=True):
+        at = at + frame.apply(link.position)
+        found.append(at)
+        turned = link.turn + link.sign * angle
+        frame = frame * Rotation.from_rotvec(np.outer(turned, link.axis))
+    return np.stack(found, axis=1)
 
 
 def trunk_rotation(rpy: Array) -> Array:

@@ -88,7 +88,7 @@ def _ends(legs: Sequence[Leg]) -> list[float]:
 
 def _bends(leg: Leg) -> float:
     """1 for a knee behind the line from hip to foot, -1 for one in front of it."""
-    return math.copysign(1.0, leg.tibia_angle)
+    return -1.0 if leg.knee == ">" else 1.0
 
 
 def _foot(leg: Leg, b1: float, b2: float) -> tuple[float, float]:

@@ -18,25 +18,36 @@ class Link(NamedTuple):
         name: ``"hip_link"``, ``"femur_link"`` or ``"tibia_link"``.
         joint: ``"abduction"``, ``"hip"`` or ``"knee"``.
         position: of the joint, in the frame of the parent link or the trunk [m].
-        pitch: rotation about y from the parent's frame to the link's in the reference pose [rad].
-        axis: axis of the joint; positive angles are those of ``apnc_plant.signals``.
+        axis: axis of the joint; coordinates of the tree turn about it.
+        turn: rotation about the axis from the parent's frame to the link's in the reference pose
+            [rad].
+        sign: coordinate of the tree per joint angle of ``apnc_plant.signals``, 1 or -1.
         body: mass properties in the frame of the link.
     """
 
     name: str
     joint: str
     position: Vector3
-    pitch: float
     axis: Vector3
+    turn: float
+    sign: float
     body: MassProperties
+
+    @property
+    def positive(self) -> Vector3:
+        """The axis about which positive joint angles of ``apnc_plant.signals`` turn."""
+        x, y, z = self.axis
+        return (self.sign * x, self.sign * y, self.sign * z)
 
 
 def links_of(leg: Leg) -> tuple[Link, Link, Link]:
     """The links of a leg from the trunk outward; the foot is ``tibia_length`` below the last."""
-    forward, down = (0.0, -1.0, 0.0), (0.0, 0.0, -leg.femur_length)
+    x, y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+    to_hip, to_knee = leg.outward(leg.hip_offset), (0.0, 0.0, -leg.femur_length)
+    sprawl, flexes = leg.side * leg.abduction_angle, 1.0 if leg.knee == ">" else -1.0
     hip, femur, tibia = (leg.mass_properties(link) for link in (leg.hip, leg.femur, leg.tibia))
     return (
-        Link("hip_link", "abduction", leg.mount, 0.0, (1.0, 0.0, 0.0), hip),
-        Link("femur_link", "hip", leg.outward(leg.hip_offset), leg.femur_angle, forward, femur),
-        Link("tibia_link", "knee", down, -leg.tibia_angle, forward, tibia),
+        Link("hip_link", "abduction", leg.mount, x, sprawl, 1.0, hip),
+        Link("femur_link", "hip", to_hip, y, leg.femur_angle, -1.0, femur),
+        Link("tibia_link", "knee", to_knee, y, -leg.tibia_angle, flexes, tibia),
     )

@@ -163,6 +163,13 @@ class Leg:
         tibia_angle: reference pose, tibia forward of the femur [rad].
         hip, femur, tibia: mass properties of the three links, in frames at their joints.
         joints: its joints in the robot's own model file.
+        knee: ``"<"`` for a knee behind the line from hip to foot, ``">"`` for one in front of it. A
+            positive angle of the knee flexes it either way.
+        abduction_angle: reference pose, foot outward of vertical [rad].
+
+    Raises:
+        RobotDescriptionError: a value out of range, or ``knee`` and ``tibia_angle`` contradict each
+            other.
     """
 
     name: Name
@@ -176,6 +183,16 @@ class Leg:
     femur: Body
     tibia: Body
     joints: JointsInFile = field(default_factory=JointsInFile)
+    knee: Literal["<", ">"] = "<"
+    abduction_angle: Angle = 0.0
+
+    def __post_init__(self) -> None:
+        if (self.tibia_angle > 0.0) if self.knee == ">" else (self.tibia_angle < 0.0):
+            allowed = "0 and less" if self.knee == ">" else "0 and more, or the other knee"
+            raise ValueError(
+                f"knee is {self.knee!r} and tibia_angle is "
+                f"{math.degrees(self.tibia_angle):.4g} deg; allowed with it: {allowed}"
+            )
 
     @property
     def side(self) -> float:

@@ -73,8 +73,13 @@ def _leg(root: Element, leg: Leg, robot: RobotDescription) -> None:
         element = _link(root, name, link.body)
         _box(element, leg.outward(box.com), box, _SEEN if box is leg.tibia else _TOUCHING)
         joint = _joint(root, f"{leg.name}_{link.joint}", "revolute", parent, name)
-        _add(joint, "origin", xyz=_numbers(link.position), rpy=_numbers((0.0, link.pitch, 0.0)))
-        _add(joint, "axis", xyz=_numbers(link.axis))
+        _add(
+            joint,
+            "origin",
+            xyz=_numbers(link.position),
+            rpy=_numbers(link.turn * part for part in link.axis),
+        )
+        _add(joint, "axis", xyz=_numbers(link.positive))
         _add(joint, "limit", limits)
         parent = name
     foot = (0.0, 0.0, -leg.tibia_length)

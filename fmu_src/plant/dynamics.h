@@ -68,7 +68,7 @@ INL leg_motion leg_moves(const leg_numbers *n, const V *q, const V *qd, v3 w, v3
     leg_motion m;
     const V zero = v_all(0.0);
     const V alpha = n->femur_angle + q[1], beta = alpha - n->tibia_angle + q[2];
-    v_sin_cos(q[0], &m.s1, &m.c1);
+    v_sin_cos(n->abduction_angle + q[0], &m.s1, &m.c1);
     v_sin_cos(alpha, &m.sa, &m.ca);
     v_sin_cos(beta, &m.sb, &m.cb);
     m.femur = (v3){-n->femur * m.sa, zero, -n->femur * m.ca};

@@ -112,10 +112,11 @@ int32_t plant_fallen(const plant_robot *robot, const plant_ground *ground, const
 
 void plant_leg_points(const plant_leg *leg, double abduction, double hip, double knee,
                       double *points) {
-    const V q[3] = {abduction, -hip, -knee}, still[3] = {0.0, 0.0, 0.0};
+    const V still[3] = {0.0, 0.0, 0.0};
     const v3 zero = {0.0, 0.0, 0.0};
     leg_numbers n;
     set_leg(&n, leg);
+    const V q[3] = {n.sign[0] * abduction, n.sign[1] * hip, n.sign[2] * knee};
     const leg_motion m = leg_moves(&n, q, still, zero, zero);
     const v3 pivot = v_add(n.mount, about_x(m.c1, m.s1, n.hip));
     write_vector(points, pivot);

@@ -26,6 +26,10 @@ static inline void set_leg(leg_numbers *n, const plant_leg *leg) {
     n->tibia = leg->tibia;
     n->femur_angle = leg->femur_angle;
     n->tibia_angle = leg->tibia_angle;
+    n->abduction_angle = leg->abduction_angle;
+    n->sign[0] = 1.0;
+    n->sign[1] = -1.0;
+    n->sign[2] = leg->knee_in_front ? 1.0 : -1.0;
     for (int i = 0; i < 3; i++) n->link[i] = about_frame(&leg->link[i]);
 }
 
@@ -95,7 +99,7 @@ static inline void set_start(const plant_parts *p, const double *coordinates, do
         leg_state *s = &p->state[leg];
         for (int j = 0; j < 3; j++) {
             const double angle = coordinates[6 + 3 * leg + j];
-            s->q[j] = s->target[j] = s->asked[j] = s->commanded[j] = j ? -angle : angle;
+            s->q[j] = s->target[j] = s->asked[j] = s->commanded[j] = p->leg[leg].sign[j] * angle;
         }
         s->sound = 1.0;
         s->stuck = NAN;

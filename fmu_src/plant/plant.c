@@ -159,6 +159,9 @@ static double *of_leg(void *plant, size_t part, size_t count, size_t i, int32_t 
 #define LEG(plant, field, leg, lane)                                                               \
     of_leg(plant, ((plant_header *)(plant))->state, NUMBERS_OF(leg_state),                         \
            PLACE_OF(leg_state, field), leg, lane)
+#define SIGN(plant, j, leg, lane)                                                                  \
+    of_leg(plant, ((plant_header *)(plant))->leg, NUMBERS_OF(leg_numbers),                         \
+           PLACE_OF(leg_numbers, sign) + (j), leg, lane)
 
 /* Copy the robot of a plant with one lane into a lane of another plant. */
 static void put(void *plant, int32_t lane, void *single) {
@@ -297,8 +300,8 @@ void plant_command(void *plant, int32_t lane, const double *hip, const double *k
     const plant_header *h = (const plant_header *)plant;
     for (int32_t leg = 0; leg < h->legs; leg++) {
         *LEG(plant, asked[0], leg, lane) = 0.0;
-        *LEG(plant, asked[1], leg, lane) = -hip[leg];
-        *LEG(plant, asked[2], leg, lane) = -knee[leg];
+        *LEG(plant, asked[1], leg, lane) = *SIGN(plant, 1, leg, lane) * hip[leg];
+        *LEG(plant, asked[2], leg, lane) = *SIGN(plant, 2, leg, lane) * knee[leg];
     }
 }
 
@@ -361,21 +364,21 @@ void plant_sample(const void *plant, int32_t lane, double *sample) {
                              *TRUNK(p, xd.x, lane), *TRUNK(p, xd.y, lane),  *TRUNK(p, xd.z, lane)};
     memcpy(sample, trunk, sizeof trunk);
     sample += 9;
-    /* hip and knee turn the other way in the tree, so angles, speeds and torques change sign */
+    /* joints may turn the other way in the tree, so angles, speeds and torques change sign */
     static const struct {
         size_t place;
-        double sign;
-    } channel[6] = {{PLACE_OF(leg_state, q), -1.0},      {PLACE_OF(leg_state, qd), -1.0},
-                    {PLACE_OF(leg_state, torque), -1.0}, {PLACE_OF(leg_state, work), 1.0},
-                    {PLACE_OF(leg_state, foot), 1.0},    {PLACE_OF(leg_state, force), 1.0}};
+        int turns;
+    } channel[6] = {{PLACE_OF(leg_state, q), 1},      {PLACE_OF(leg_state, qd), 1},
+                    {PLACE_OF(leg_state, torque), 1}, {PLACE_OF(leg_state, work), 0},
+                    {PLACE_OF(leg_state, foot), 0},   {PLACE_OF(leg_state, force), 0}};
     for (int32_t leg = 0; leg < legs; leg++) {
         const double *first = leg_at(p, h->state, NUMBERS_OF(leg_state), leg, lane);
+        const double *sign = SIGN(p, 0, leg, lane);
         for (size_t k = 0; k < 6; k++) {
             const double *from = first + channel[k].place * width;
             double *to = sample + k * each + 3 * (size_t)leg;
-            to[0] = from[0];
-            to[1] = channel[k].sign * from[width];
-            to[2] = channel[k].sign * from[2 * width];
+            for (size_t j = 0; j < 3; j++)
+                to[j] = (channel[k].turns ? sign[j * width] : 1.0) * from[j * width];
         }
         sample[6 * each + (size_t)leg] = first[PLACE_OF(leg_state, reading) * width];
     }
@@ -389,7 +392,8 @@ void plant_accelerations(const void *plant, int32_t lane, double *accelerations)
     memcpy(accelerations, trunk, sizeof trunk);
     for (int32_t leg = 0; leg < ((const plant_header *)plant)->legs; leg++)
         for (size_t j = 0; j < 3; j++)
-            accelerations[6 + 3 * leg + (int32_t)j] = (j ? -1.0 : 1.0) * *LEG(p, qdd[j], leg, lane);
+            accelerations[6 + 3 * leg + (int32_t)j] =
+                *SIGN(p, j, leg, lane) * *LEG(p, qdd[j], leg, lane);
 }
 
 double plant_foot_mass(const void *plant, int32_t lane) {

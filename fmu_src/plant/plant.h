@@ -8,8 +8,8 @@
  * Frames: world (x forward at the start, y left, z up); trunk (origin at its reference point);
  * ground (the world frame, turned about y by the slope). The legs are in the order of the
  * controller, right side first. Joint angles are zero in the reference pose. A positive hip angle
- * swings the leg forward, a positive knee angle lifts the foot, a positive abduction moves the foot
- * to the left.
+ * swings the leg forward, a positive knee angle flexes the knee and lifts the foot, a positive
+ * abduction moves the foot to the left.
  *
  * Python parses this header with cffi, so the declarations are plain and contain no macros.
  */
@@ -35,13 +35,16 @@ typedef struct {
 /* A leg: abduction about x, hip and knee about y. All vectors are in axes parallel to the trunk's.
  */
 typedef struct {
-    double mount[3];    /* [m] abduction joint, in the trunk frame */
-    double hip[3];      /* [m] from the abduction axis to the hip axis */
-    double femur;       /* [m] hip axis to knee axis */
-    double tibia;       /* [m] knee axis to centre of the foot */
-    double femur_angle; /* [rad] reference pose, back of vertical */
-    double tibia_angle; /* [rad] reference pose, forward of the femur */
-    plant_body link[3]; /* hip, femur, tibia; each frame lies at its joint */
+    double mount[3];        /* [m] abduction joint, in the trunk frame */
+    double hip[3];          /* [m] from the abduction axis to the hip axis */
+    double femur;           /* [m] hip axis to knee axis */
+    double tibia;           /* [m] knee axis to centre of the foot */
+    double femur_angle;     /* [rad] reference pose, back of vertical */
+    double tibia_angle;     /* [rad] reference pose, forward of the femur */
+    plant_body link[3];     /* hip, femur, tibia; each frame lies at its joint */
+    double abduction_angle; /* [rad] reference pose, the foot to the left */
+    int32_t knee_in_front;  /* 1: the knee lies in front of the line from hip to foot, and a
+                               positive angle turns the tibia back; 0: the other way */
 } plant_leg;
 
 /* A geared position servo, the same in every joint. */
@@ -253,7 +256,7 @@ double plant_own_step(const plant_robot *robot);
 /* All forces on a robot but gravity, for other engines: the same laws on their coordinates.
  *
  * q, v: coordinates and speeds of a tree: x, y, z, yaw, pitch, roll, then abduction, hip and knee
- * of every leg, of which hip and knee turn about +y (so minus the joint angle); target: commanded
+ * of every leg, of which hip and knee turn about +y; target: commanded
  * tree coordinates of the joints, 3 legs numbers; held: six coordinates the trunk is held at, or
  * NULL; stopping: length of the step over foot mass [s/kg]; work: [J] per joint, grows by
  * |torque speed| dt; out: generalized forces (6 + 3 legs), then torques in tree coordinates, feet

@@ -1,6 +1,7 @@
 /* Numbers and state of a robot as the equations of motion need them, for any number of lanes.
  *
- * Coordinates are those of a tree: hip and knee turn about +y, so they are minus the joint angles.
+ * Coordinates are those of a tree: hip and knee turn about +y. They are the joint angles times
+ * `sign`.
  * Structs of B hold what a robot has once, structs of V hold what every leg has. They contain
  * nothing else, so that a lane can be filled and read number by number. */
 #ifndef PLANT_ROBOT_H
@@ -40,6 +41,8 @@ typedef struct {
     V femur, tibia;    /* [m] lengths */
     V femur_angle;     /* [rad] reference pose */
     V tibia_angle;     /* [rad] */
+    V abduction_angle; /* [rad] */
+    V sign[3];         /* coordinate per joint angle: 1 or -1 */
     v_inertia link[3]; /* links, about their joints, in their axes */
 } leg_numbers;
 

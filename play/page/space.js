@@ -21,15 +21,25 @@ export const turnedBack = (R, v) => [0, 1, 2].map((k) => R[0][k] * v[0] + R[1][k
 /** From the frame of a ground that rises along x by a slope [rad] to the world. */
 export const groundFrame = (slope) => rotation([0, -slope, 0]);
 
-/** Points of a leg in the trunk: mount, hip, knee, foot; joint angles swing forward and lift. */
-export function chainOf(leg, [abduction, hip, knee]) {
-  const lean = hip - leg.femurAngle, bent = lean + knee + leg.tibiaAngle;
-  const along = (angle, length) => [length * Math.sin(angle), 0, -length * Math.cos(angle)];
-  const c = Math.cos(abduction), s = Math.sin(abduction);
-  const points = [leg.hip];
-  points.push(add(points[0], along(lean, leg.femur)));
-  points.push(add(points[1], along(bent, leg.tibia)));
-  return [leg.mount, ...points.map(([x, y, z]) => add(leg.mount, [x, c * y - s * z, s * y + c * z]))];
+/** A vector turned about a unit axis by an angle, by the formula of Rodrigues. */
+export function turnedAbout(axis, angle, v) {
+  const c = Math.cos(angle), s = Math.sin(angle);
+  const turning = add(v.map((x) => c * x), cross(axis, v), s);
+  return add(turning, axis, (1 - c) * dot(axis, v));
+}
+
+/** Points of a leg in the trunk: its joints from the trunk outward, then its foot. */
+export function chainOf(leg, angles) {
+  const turns = leg.links.map((link) => link.turn + link.sign * angles[link.angle]);
+  // from the frame of link k to the trunk: the joints inward of it turn one after the other
+  const inTrunk = (v, k) => {
+    for (let j = k; j >= 0; j -= 1) v = turnedAbout(leg.links[j].axis, turns[j], v);
+    return v;
+  };
+  const points = [];
+  leg.links.forEach((link, k) => points.push(k ? add(points[k - 1], inTrunk(link.position, k - 1)) : link.position));
+  points.push(add(points.at(-1), inTrunk([0, 0, -leg.tibia], leg.links.length - 1)));
+  return points;
 }
 
 /** Convex hull of points of a plane, counter-clockwise. */

@@ -76,6 +76,7 @@ def random_body(random: np.random.Generator, mass: float, size: float) -> Fields
 
 
 def _random_leg(random: np.random.Generator) -> Fields:
+    own = np.random.default_rng(random.bit_generator.state["state"]["state"] % 2**32)
     return {
         "mount": list(random.uniform(-1, 1, 3) * [0.15, 0.1, 0.03]),
         "hip": list(random.uniform(-0.03, 0.03, 3)),
@@ -84,6 +85,8 @@ def _random_leg(random: np.random.Generator) -> Fields:
         "femur_angle": random.uniform(-1.0, 1.0),
         "tibia_angle": random.uniform(-1.0, 1.0),
         "link": [random_body(random, random.uniform(0.05, 0.2), 0.06) for _ in range(3)],
+        "abduction_angle": own.uniform(-0.3, 0.3),
+        "knee_in_front": int(own.integers(2)),
     }
 
 
@@ -142,6 +145,13 @@ def robot_of(fields: Fields) -> Numbers:
 def random_robot(seed: int, legs: int, **sections: Any) -> Numbers:
     """A robot that is like no other; see ``changed`` for the rest."""
     return robot_of(changed(random_fields(np.random.default_rng(seed), legs), **sections))
+
+
+def soft_robot(seed: int, legs: int, **sections: Any) -> Numbers:
+    """A random robot with all knees to one side and no leg sprawled, which lands more softly."""
+    fields = changed(random_fields(np.random.default_rng(seed), legs), **sections)
+    alike = [leg | {"abduction_angle": 0.0, "knee_in_front": 0} for leg in fields["leg"]]
+    return robot_of(fields | {"leg": alike})
 
 
 def plane(slope: float = 0.0) -> Numbers:
@@ -280,7 +290,7 @@ class CPlant:
         """Of the coordinates of the tree, shape (6 + 3 legs,)."""
         found = np.zeros(6 + 3 * self.legs)
         self.lib.plant_accelerations(self.memory, lane, pointer(found))
-        found[6:] = (found[6:].reshape(-1, 3) * [1.0, -1.0, -1.0]).ravel()
+        found[6:] *= signs(self._kept[lane][0].at).ravel()
         return found
 
     def put(self, q: np.ndarray, v: np.ndarray, lane: int = 0) -> None:
@@ -302,6 +312,12 @@ class CPlant:
 
     def restore(self, saved: bytes) -> None:
         ffi().buffer(self.memory, self.size)[:] = saved
+
+
+def signs(robot: Any) -> np.ndarray:
+    """Coordinates of the tree per joint angle of a ``plant_robot``, shape (legs, 3)."""
+    flexes = [1.0 if robot.leg[k].knee_in_front else -1.0 for k in range(robot.legs)]
+    return np.array([[1.0, -1.0, flex] for flex in flexes])
 
 
 def trot(legs: int, tick: int, size: float = 1.0) -> tuple[np.ndarray, np.ndarray]:

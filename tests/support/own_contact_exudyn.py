@@ -106,8 +106,8 @@ def jacobian(leg: Leg, angles: np.ndarray, down: np.ndarray) -> np.ndarray:
     at, frame, places, axes = np.zeros(3), np.eye(3), [], []
     for link, angle in zip(links_of(leg), angles, strict=True):
         at = at + frame @ link.position
-        frame = frame @ turn("y", link.pitch)
         name = "x" if link.axis[0] else "y"
+        frame = frame @ turn(name, link.turn)
         places.append(at)
         axes.append(frame @ np.eye(3)["xyz".index(name)])
         frame = frame @ turn(name, angle)

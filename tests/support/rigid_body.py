@@ -25,6 +25,11 @@ def _inertia(body: Any) -> Any:
     )
 
 
+def _about_x(angle: float) -> Array:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
 def _about_y(angle: float) -> Array:
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
@@ -61,11 +66,13 @@ class RigidBody:
 
     def _add_leg(self, trunk: int, k: int) -> int:
         leg, model, joint = self.robot.leg[k], self.model, trunk
-        turns = (0.0, leg.femur_angle, -leg.tibia_angle)
+        turns = (
+            _about_x(leg.abduction_angle), _about_y(leg.femur_angle), _about_y(-leg.tibia_angle)
+        )  # fmt: skip
         places = (list(leg.mount), list(leg.hip), [0.0, 0.0, -leg.femur])
         kinds = (pin.JointModelRX(), pin.JointModelRY(), pin.JointModelRY())
         for i, (kind, place, turn) in enumerate(zip(kinds, places, turns, strict=True)):
-            at = pin.SE3(_about_y(turn), np.array(place))
+            at = pin.SE3(turn, np.array(place))
             joint = model.addJoint(joint, kind, at, f"{k}.{i}")
             model.appendBodyToJoint(joint, _inertia(leg.link[i]), pin.SE3.Identity())
         below = pin.SE3(np.eye(3), np.array([0.0, 0.0, -leg.tibia]))
@@ -143,6 +150,7 @@ class Expected:
     """What acts on a robot on a ground, at coordinates and speeds of its tree.
 
     Attributes:
+        robot: the ``plant_robot``.
         force: generalized forces, shape (6 + 3 legs,).
         torque: of the servos in coordinates of the tree [N m], shape (3 legs,).
         foot, push: centres of the feet [m] and forces on them [N], world frame, shape (legs, 3).
@@ -164,6 +172,7 @@ class Expected:
     ) -> None:
         """Where the ground touches is asked of the library; see the tests of the grounds."""
         robot, n = body.robot, body.robot.legs
+        self.robot = robot
         body.move(q, v)
         self.torque = servo_torque(robot.servo, target - q[BASE:], v[BASE:])
         self.force = np.concatenate([np.zeros(BASE), self.torque])

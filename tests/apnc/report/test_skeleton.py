@@ -6,10 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from odd_robot import odd_robot
 from records import FEMUR, TIBIA, synthetic_record
 from scipy.spatial.transform import Rotation
 
 from apnc.report.skeleton import leg_chains, trunk_corners, trunk_rotation
+from apnc_plant.kinematics import Kinematics
 
 
 def test_knees_close_the_legs() -> None:
@@ -64,3 +66,17 @@ def test_abduction_turns_the_leg_about_the_axis_ahead() -> None:
         expected = turn.apply((straight[:, :, point] - straight[:, :, 0]).reshape(-1, 3))
         found = (turned[:, :, point] - turned[:, :, 0]).reshape(-1, 3)
         np.testing.assert_allclose(found, expected, atol=1e-12)
+
+
+def test_legs_of_every_kind_are_drawn_where_the_plant_has_them() -> None:
+    robot, angles = odd_robot(), np.random.default_rng(1).uniform(-0.5, 0.5, (4, 3))
+    points = [Kinematics(robot).points(k, *own) for k, own in enumerate(angles)]
+    plant = {
+        "position": np.zeros((1, 3)),
+        "rpy": np.zeros((1, 3)),
+        "joint_angle": angles[None],
+        "foot_position": np.array(points)[None, :, 2],
+    }
+    found = leg_chains(robot, plant)[0]
+    np.testing.assert_allclose(found[:, 0], [leg.mount for leg in robot.legs])
+    np.testing.assert_allclose(found[:, 1:], points, rtol=0.0, atol=1e-12)

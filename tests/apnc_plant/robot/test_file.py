@@ -59,6 +59,17 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
             "trunk.size[2] is 0.0; allowed: a",
         ),
         ("tibia_angle = 92.0", "tibia_angle = 920.0", "leg.tibia_angle is 920.0"),
+        ("tibia_angle = 92.0", "tibia_angle = -92.0", "knee is '<' and tibia_angle is -92 deg"),
+        (
+            "tibia_angle = 92.0",
+            'tibia_angle = 92.0\nknee = ">"',
+            "knee is '>' and tibia_angle is 92 deg; allowed with it: 0 and less",
+        ),
+        (
+            "tibia_angle = 92.0",
+            'tibia_angle = 92.0\nknee = "v"',
+            "leg.knee is 'v'; allowed: < or >",
+        ),
         (
             'name = "RH"',
             'name = "RF"',

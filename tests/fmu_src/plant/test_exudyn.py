@@ -12,7 +12,7 @@ import apnc
 from apnc_plant.compiled import Plant as PlantInC
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Ground, Kerb, Plane
-from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.robot import Leg, RobotDescription, load_robot
 from exudyn_models.plant import Plant as PlantInExudyn
 
 TICK = 1 / 60
@@ -87,6 +87,31 @@ def test_it_walks_as_in_exudyn(name: str, ground: Ground) -> None:
     if isinstance(ground, Kerb):
         assert first > ground.end and last > ground.at  # up, and down again
     assert walk.loaded > 5.0
+
+
+def in_front(leg: Leg) -> Leg:
+    """The leg with its knee mirrored to the front."""
+    return replace(
+        leg, knee=">", femur_angle=-leg.femur_angle, tibia_angle=-leg.tibia_angle
+    )  # fmt: skip
+
+
+STANDING = {
+    "dog": [],
+    "x": ["RH", "LH"],
+    "x turned": ["RF", "LF"],
+    "bird": ["RF", "RH", "LF", "LH"],
+}
+"""Legs whose knees lie in front."""
+
+
+@pytest.mark.parametrize("stands", STANDING)
+def test_with_other_knees_and_sprawled_it_walks_as_in_exudyn(stands: str) -> None:
+    legs = tuple(in_front(leg) if leg.name in STANDING[stands] else leg for leg in LILIBOT.legs)
+    sprawled = tuple(
+        replace(leg, abduction_angle=0.1 + 0.05 * k) for k, leg in enumerate(legs)
+    )  # fmt: skip
+    Walk(replace(LILIBOT, legs=sprawled))
 
 
 @pytest.mark.parametrize(

@@ -33,6 +33,12 @@ FAULTS = {
     "rotor forgotten in one joint": Fault(
         "accelerations", "dynamics.h", "M22 = i23.yy + rotor;", "M22 = i23.yy;"
     ),
+    "legs that are never sprawled": Fault(
+        "accelerations", "dynamics.h", "v_sin_cos(n->abduction_angle + q[0], ", "v_sin_cos(q[0], "
+    ),
+    "knees that all flex one way": Fault(
+        "motion", "numbers.h", "leg->knee_in_front ? 1.0 : -1.0", "-1.0"
+    ),
     "gravity upward": Fault(
         "accelerations", "dynamics.h", "s->xdd.z -= n->gravity;", "s->xdd.z += n->gravity;"
     ),

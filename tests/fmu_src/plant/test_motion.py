@@ -18,6 +18,7 @@ from c_plant import (
     random_robot,
     robot_of,
     same_bits,
+    soft_robot,
     trot,
 )
 from c_plant_checks import QUIET, kinds, random_motion
@@ -117,7 +118,7 @@ def energy(body: RigidBody, plant: CPlant, target: np.ndarray) -> float:
 
 def lossless(seed: int) -> Any:
     strong = {"damping": 0.0, "stall_torque": 1e6, "no_load_speed": 1e9}
-    return random_robot(seed, 4, servo=strong, contact={"damping": 0.0, "friction": 0.0})
+    return soft_robot(seed, 4, servo=strong, contact={"damping": 0.0, "friction": 0.0})
 
 
 def drift(height: float, spin: float, step: float) -> tuple[float, float]:
@@ -160,7 +161,7 @@ def test_servos_change_no_momentum_in_the_air() -> None:
 
 
 def test_momentum_changes_by_the_forces_on_the_feet_and_weight() -> None:
-    robot, worst = random_robot(6, 4, gravity=GRAVITY), []
+    robot, worst = soft_robot(6, 4, gravity=GRAVITY), []
     for parts in (16, 128):
         plant, body = CPlant(4), RigidBody(robot.at)
         plant.place(robot, plane())
