@@ -10,9 +10,10 @@ import numpy as np
 
 from apnc_plant.conditions import named_conditions
 from apnc_plant.generate import start_macro
-from apnc_plant.ground.obstacles import CELLS, SINK_IN, STEP_HEIGHT, TILE, Obstacles
+from apnc_plant.ground.obstacles import CELLS, SINK_IN, TILE, Obstacles
 from apnc_plant.numbers import leg_numbers, suspension
 from apnc_plant.robot.model import GRAVITY, PAYLOAD_SIZE, RobotDescription
+from apnc_plant.robot.size import times_longer
 from apnc_plant.variables import Condition, starts_of, variable_named
 
 HEADER: Final = "robot_config.h"
@@ -27,7 +28,7 @@ def robot_config(robot: RobotDescription) -> bytes:
     Raises:
         ValueError: a number of the robot is outside the range of its FMU.
     """
-    trunk, field = robot.trunk, Obstacles()
+    trunk, field = robot.trunk, Obstacles(roughness=1.0, scale=times_longer(robot))
     lines = [
         f"/* Robot '{robot.name}', written by the build. */",
         "#ifndef ROBOT_CONFIG_H",
@@ -44,12 +45,15 @@ def robot_config(robot: RobotDescription) -> bytes:
                 "ROBOT_COM_SIDE_OFFSET": (trunk.com_side_offset, "[m]"),
                 "ROBOT_SUSPENSION": (suspension(robot), "of a held trunk, see plant_suspension"),
                 "ROBOT_PAYLOAD_SIZE": (PAYLOAD_SIZE, "[m] edges of the box on the trunk"),
-                "ROBOT_FIELD_BALLS": (round(field.density * TILE**2), "obstacles in a tile"),
+                "ROBOT_FIELD_BALLS": (field.balls, "obstacles in a tile"),
                 "ROBOT_FIELD_CELLS": (CELLS, "along an edge of a tile"),
                 "ROBOT_FIELD_TILE": (TILE, "[m]"),
-                "ROBOT_FIELD_STEP": (STEP_HEIGHT, "[m] height of obstacles at roughness 1"),
-                "ROBOT_FIELD_DIAMETERS": (field.diameters, "[m] smallest and largest"),
-                "ROBOT_FIELD_SINK_IN": (SINK_IN, "[m]"),
+                "ROBOT_FIELD_STEP": (field.top, "[m] height of obstacles at roughness 1"),
+                "ROBOT_FIELD_DIAMETERS": (
+                    [diameter * field.scale for diameter in field.diameters],
+                    "[m] smallest and largest",
+                ),
+                "ROBOT_FIELD_SINK_IN": (SINK_IN * field.scale, "[m]"),
             }
         ),
         "/* Start values of parameters. */",

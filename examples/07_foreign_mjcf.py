@@ -20,9 +20,9 @@ Ts, steps, limit = 1 / robot.rate, 40, robot.servo.stall_torque
 spec.option.timestep, spec.option.disableflags = Ts / steps, mujoco.mjtDisableBit.mjDSBL_ACTUATION
 floor = spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1])
 model = spec.compile()
-data, joints = mujoco.MjData(model), [model.joint(each.name) for each in found.joints]
+data, joints = mujoco.MjData(model), [model.joint(each.name) for each in robot.joint_map]
 at, dof = (np.concatenate([getattr(j, n) for j in joints]) for n in ("qposadr", "dofadr"))
-pose, sign = (np.array([getattr(each, n) for each in found.joints]) for n in ("offset", "sign"))
+pose, sign = (np.array([getattr(each, n) for each in robot.joint_map]) for n in ("offset", "sign"))
 link = {int(model.jnt_bodyid[joints[3 * leg + 2].id]): leg for leg in legs}  # below each knee
 leg_of = [link.get(int(model.body_weldid[body])) for body in model.geom_bodyid]
 description = read_model_description("Apnc.fmu")

@@ -108,7 +108,8 @@ def walk(
         ),
     ] = None,
     roughness: Annotated[
-        float | None, Option(help="Obstacles of the paper, roughness 0 ... 1. Default: none.")
+        float | None,
+        Option(help="Obstacles of the robot's size, roughness 0 ... 1. Default: none."),
     ] = None,
     slope: Annotated[
         float | None, Option(help="Rise of the ground along x [deg]. Default: 0.")
@@ -250,7 +251,7 @@ def experiment_of(options: Mapping[str, Any]) -> Experiment:
             given[name] = parse_schedule(option, said[option], convert)
     if "push" in said:
         given["pushes"] = parse_pushes(said["push"])
-    given |= _ground(*map(said.get, ("ground", "roughness", "slope", "seed")))
+    given |= _ground(*map(said.get, ("ground", "roughness", "slope", "seed", "robot")))
     settings: dict[str, Any] = {}
     if "params" in said:
         from apnc.loop.parameters import read_parameters
@@ -276,15 +277,24 @@ def experiment_of(options: Mapping[str, Any]) -> Experiment:
 
 
 def _ground(
-    text: str | None, roughness: float | None, slope: float | None, seed: int | None
+    text: str | None,
+    roughness: float | None,
+    slope: float | None,
+    seed: int | None,
+    robot: str | None,
 ) -> dict[str, Ground]:
     if (text, roughness, slope) == (None, None, None):
         return {}
     if text is not None and roughness is not None:
         raise ValueError(f"--ground {text} and --roughness {roughness} both say the ground")
     from apnc_plant.ground import parse_ground
+    from apnc_plant.robot.size import times_longer
 
-    own = apnc.Plane() if roughness is None else apnc.Obstacles(roughness=roughness, seed=seed or 0)
+    own: Ground = apnc.Plane()
+    if roughness is not None:
+        walking = apnc.Experiment() if robot is None else apnc.Experiment(robot=robot)
+        scale = times_longer(walking.description)
+        own = apnc.Obstacles(roughness=roughness, seed=seed or 0, scale=scale)
     ground = own if text is None else parse_ground(text)
     if slope is not None:
         if ground.slope:

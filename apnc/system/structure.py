@@ -14,6 +14,7 @@ from apnc_core.settings import Setting, checked_in
 from apnc_core.variables import scalars, variable_named, variables_of
 from apnc_plant.conditions import Conditions, paper_conditions
 from apnc_plant.ground import Obstacles
+from apnc_plant.robot.size import times_longer
 from apnc_plant.variables import COMMANDS, FELL, LOAD, TABLE, Condition
 from build_fmu.description_parts import UNITS
 from build_fmu.platforms import MODEL
@@ -234,7 +235,12 @@ def _connectors(known: Iterable[Scalar], shown: tuple[str, ...]) -> tuple[Connec
 
 def _refuse(experiment: Experiment) -> None:
     ground, seed = experiment.ground, experiment.seed
-    rough = Obstacles(slope=ground.slope, roughness=getattr(ground, "roughness", 0.0), seed=seed)
+    rough = Obstacles(
+        slope=ground.slope,
+        roughness=getattr(ground, "roughness", 0.0),
+        seed=seed,
+        scale=times_longer(experiment.description),
+    )
     most = int(PLANT_PARAMETERS["seed"].max or 0)
     for name, value, fits, allowed in (
         ("robot", experiment.robot, isinstance(experiment.robot, str), "a name or a file"),
@@ -244,7 +250,7 @@ def _refuse(experiment: Experiment) -> None:
         ("conditions", experiment.conditions, _condition(experiment) is not None,
          "one, named, and a payload"),
         ("ground", ground.text(), ground.flat or ground == rough,
-         "a plane, or obstacles with the seed of the system"),
+         "a plane, or obstacles with the seed of the system and the scale of the robot"),
         ("seed", seed, seed <= most, f"0 to {most}"),
         ("fmu", experiment.fmu, experiment.fmu is None, "the built one"),
     ):  # fmt: skip

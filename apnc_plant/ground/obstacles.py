@@ -25,7 +25,7 @@ CELLS: Final = 80
 """Cells along an edge of the tile, 5 cm each, so that a cell lists only a few obstacles."""
 
 SINK_IN: Final = 0.002
-"""Depth to which a foot may sink into an obstacle and still be found in its cell [m]."""
+"""Depth to which a foot of Lilibot may sink into an obstacle and still be found in its cell [m]."""
 
 CIRCLE: Final = np.linspace(0.0, 2.0 * math.pi, 17)
 """Angles of the points with which a circle is drawn [rad]."""
@@ -41,6 +41,8 @@ class Obstacles(Ground):
         seed: seed of the positions and diameters of the obstacles.
         density: obstacles per area [1/m^2].
         diameters: smallest and largest diameter of the balls whose caps are the obstacles [m].
+        scale: all lengths over these, heights included [1]: a robot with legs twice as long as
+            Lilibot's walks at 2 over what Lilibot does at 1.
 
     Raises:
         ValueError: a value out of range.
@@ -61,6 +63,7 @@ class Obstacles(Ground):
     seed: int = 0
     density: float = 60.0
     diameters: tuple[float, float] = (0.03, 0.1)
+    scale: float = 1.0
 
     def __post_init__(self) -> None:
         """Check the values."""
@@ -69,13 +72,19 @@ class Obstacles(Ground):
         checked_seed(self.seed)
         self._require("density", 0.0 < self.density <= 1e4, "above 0, up to 10000 per m^2")
         low, high = self.diameters
+        self._require("scale", 0.0 < self.scale <= 1.0 / high, f"above 0, up to {1.0 / high:g}")
         fits = 2.0 * STEP_HEIGHT <= low <= high <= 1.0
         self._require("diameters", fits, f"from {2.0 * STEP_HEIGHT} to 1, the smallest first [m]")
 
     @property
     def top(self) -> float:
         """Height of the obstacles above the plane [m]."""
-        return self.roughness * STEP_HEIGHT
+        return self.roughness * STEP_HEIGHT * self.scale
+
+    @property
+    def balls(self) -> int:
+        """Obstacles in a tile."""
+        return round(self.density / self.scale**2 * TILE**2)
 
     @property
     def flat(self) -> bool:
@@ -131,17 +140,17 @@ def _obstacles(ground: Obstacles) -> Array:
 @lru_cache(maxsize=8)
 def _numbers(ground: Obstacles, radius: float) -> Numbers:
     ffi, lib = library()
-    smallest, largest = ground.diameters
+    smallest, largest = (diameter * ground.scale for diameter in ground.diameters)
     fields = {
         "seed": ground.seed,
-        "balls": round(ground.density * TILE**2),
+        "balls": ground.balls,
         "cells": CELLS,
         "tile": TILE,
         "height": ground.top,
         "smallest": smallest,
         "largest": largest,
         "foot_radius": radius,
-        "sink_in": SINK_IN,
+        "sink_in": SINK_IN * ground.scale,
     }
     field = ffi.new("plant_field *", fields)
     reals = np.empty(lib.plant_field_reals(field))

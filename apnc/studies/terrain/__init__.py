@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -28,6 +29,7 @@ from apnc.studies.results import Result, successes, values
 from apnc.studies.statistics import compare_rates, compare_spread, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others
 from apnc_plant.ground import Obstacles
+from apnc_plant.robot.size import times_longer
 
 ROUGHNESS: Final = (0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 1.0)
 OTHERS_ROUGHNESS: Final = (0.0, 0.4, 0.8, 0.9, 1.0)
@@ -35,9 +37,10 @@ OTHERS_ROUGHNESS: Final = (0.0, 0.4, 0.8, 0.9, 1.0)
 
 
 def experiment(seed: int, roughness: float, **fields: Any) -> Experiment:
-    """A walk over obstacles."""
-    ground = Obstacles(roughness=roughness, seed=seed)
-    return Experiment(seed=seed, ground=ground, mi=WALK_MI, duration=WALK_S, **fields)
+    """A walk over obstacles of the robot's size."""
+    walk = Experiment(seed=seed, mi=WALK_MI, duration=WALK_S, **fields)
+    scale = times_longer(walk.description)
+    return replace(walk, ground=Obstacles(roughness=roughness, seed=seed, scale=scale))
 
 
 def spread_grows(results: Sequence[Result], column: str) -> Judgement:

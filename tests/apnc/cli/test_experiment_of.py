@@ -22,8 +22,10 @@ from apnc.cli.app import app
 from apnc.cli.walk import experiment_of
 from apnc.controllers import CONTROLLERS
 from apnc.loop.provenance import what_was_run
+from apnc.studies import terrain
 from apnc_core.schema import Causality, Shape, Type
 from apnc_core.variables import variables_of
+from apnc_plant.robot import ROBOTS
 from build_fmu.build import cached_fmu
 from build_fmu.options import BuildOptions, host_platform
 
@@ -269,3 +271,17 @@ def test_memory_begins_where_the_gait_ended_and_set_wins(tmp_path: Path) -> None
     words = ("--gait", str(tmp_path / "gait.json"))
     assert said(*words).settings == {"stored": True, "phi_stored": gait.phi}
     assert said(*words, "--set", "stored=false").settings["stored"] is False
+
+
+def test_roughness_is_of_obstacles_of_the_robots_size(tmp_path: Path) -> None:
+    text = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
+    path = tmp_path / "large.toml"
+    for length in ("femur_length = 0.070", "tibia_length = 0.085"):
+        name, _, value = length.partition(" = ")
+        text = text.replace(length, f"{name} = {2.0 * float(value)}")
+    path.write_text(text, encoding="utf-8")
+    found = said("--robot", str(path), "--roughness", "0.5", "--seed", "2")
+    assert found.ground == Obstacles(roughness=0.5, seed=2, scale=2.0)
+    assert said(*shlex.split(found.command())[2:]) == found
+    assert said("--roughness", "0.5").ground == Obstacles(roughness=0.5)
+    assert terrain.experiment(2, 0.5, robot=str(path)).ground == found.ground

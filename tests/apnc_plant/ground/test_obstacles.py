@@ -118,3 +118,21 @@ def test_the_drawing_shows_every_obstacle_that_is_there() -> None:
 def test_ground_out_of_range_is_refused(values: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         Obstacles(**values)  # type: ignore[arg-type]
+
+
+def test_a_scale_is_of_every_length() -> None:
+    small, large = (Obstacles(roughness=0.6, seed=4, scale=scale) for scale in (1.0, 2.0))
+    assert large.top == pytest.approx(2.0 * 0.6 * STEP_HEIGHT)
+    radii, larger = (np.sort(ground.obstacles()[:, 3]) for ground in (small, large))
+    assert len(radii) == pytest.approx(4 * len(larger), abs=2)  # as much of the ground is covered
+    for share in (0.0, 0.5, 1.0):
+        assert np.quantile(larger, share) == pytest.approx(2.0 * np.quantile(radii, share), rel=0.1)
+    assert larger.min() >= 0.03 and larger.max() <= 0.1
+    x = np.linspace(0.0, 4.0, 400)
+    assert np.max(large.elevation(x, x)) == pytest.approx(large.top, rel=0.2)
+
+
+@pytest.mark.parametrize("scale", [0.0, -1.0, 10.1])
+def test_a_scale_that_no_field_has_is_refused(scale: float) -> None:
+    with pytest.raises(ValueError, match=r"scale.* above 0, up to 10"):
+        Obstacles(scale=scale)
