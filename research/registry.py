@@ -22,6 +22,13 @@ STUDIES: Final[Registry] = {
             (ROBOT, "number", "level", "walk"),
             "research",
         ),
+        Entry(
+            "basin.pushes",
+            "Pushes that are forgotten",
+            "",
+            (ROBOT, "mi", "direction", "froude"),
+            "research",
+        ),
         Entry("limits", "Limits of the claim", "", (ROBOT, "case"), "research"),
         Entry(
             "contact", "Integration step of the ground contact", "", ("depth", "steps"), "research"
