@@ -12,15 +12,16 @@ from apnc.loop.record import End, Record
 from apnc.studies.results import Result
 from apnc.studies.states.timeline import TIMELINE, Timeline
 from apnc_plant.robot.leg_names import by_place
+from apnc_plant.robot.size import times_longer
 
 STOPPED: Final = 0.2
 """Range of o1 below which an oscillator counts as stopped. It is about 1.7 in a cycle [1]."""
 
 WALKS: Final = 0.03
-"""Slowest mean speed along the heading that counts as walking [m/s]."""
+"""Slowest mean speed along the heading that counts as walking, for legs of Lilibot [m/s]."""
 
 ROOTED: Final = 0.01
-"""Fastest mean speed along the heading that counts as rocking in place [m/s]."""
+"""Fastest mean speed along the heading that counts as rocking in place, as ``WALKS`` [m/s]."""
 
 SETTLING: Final = 2.0
 """Time after the break in which a front oscillator may still move [s]."""
@@ -40,7 +41,8 @@ def measure(record: Record) -> Result:
     """
     if record.complete and record.ended_at >= TIMELINE.end:
         found = judge(record)
-        found |= as_paper_says(found, record.experiment.controller_name)
+        faster = math.sqrt(times_longer(record.robot))
+        found |= as_paper_says(found, record.experiment.controller_name, faster)
     else:
         found = {"S1": False, "S2": False, "S3": False}
     return {f"state_{name}": value for name, value in found.items()} | {
@@ -48,16 +50,22 @@ def measure(record: Record) -> Result:
     }
 
 
-def as_paper_says(found: Result, controller: str) -> Result:
+def as_paper_says(found: Result, controller: str, faster: float = 1.0) -> Result:
     """Whether S1, S2 and S3 went as in Fig. 10-12.
 
     ``apc`` is judged as the controller without couplings, which must lose the gait. All others are
     judged as the one with couplings, which must keep and recover it.
+
+    Args:
+        found: what :func:`judge` returns.
+        controller: label of the controller.
+        faster: speeds of the robot over those of Lilibot, the root of the lengths of their legs.
     """
-    s2 = found["kept"] and found["speed_s2"] >= WALKS
-    s3 = found["recovered"] and found["speed_s3"] >= WALKS
+    walks, rooted = WALKS * faster, ROOTED * faster
+    s2 = found["kept"] and found["speed_s2"] >= walks
+    s3 = found["recovered"] and found["speed_s3"] >= walks
     if controller == "apc":
-        s2, s3 = found["front_stopped"], found["in_phase"] and abs(found["speed_s3"]) <= ROOTED
+        s2, s3 = found["front_stopped"], found["in_phase"] and abs(found["speed_s3"]) <= rooted
     return {"S1": found["formed"], "S2": s2, "S3": s3}
 
 

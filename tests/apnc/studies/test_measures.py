@@ -190,6 +190,14 @@ def test_as_the_paper_says(controller: str, changed: Result, expected: tuple[boo
     assert (found["S1"], found["S2"], found["S3"]) == expected
 
 
+def test_a_larger_robot_has_to_be_faster_to_walk_and_may_be_to_rock() -> None:
+    slow = BASE | {"speed_s2": 0.05, "speed_s3": 0.05}
+    assert as_paper_says(slow, "apnc")["S2"] and as_paper_says(slow, "apnc")["S3"]
+    assert not as_paper_says(slow, "apnc", 2.0)["S2"] and not as_paper_says(slow, "apnc", 2.0)["S3"]
+    rocking = BASE | {"front_stopped": True, "in_phase": True, "speed_s3": 0.015}
+    assert [as_paper_says(rocking, "apc", f)["S3"] for f in (1.0, 2.0)] == [False, True]
+
+
 @pytest.mark.parametrize("end", [End.fell, End.diverged, End.interrupted])
 def test_a_run_that_ended_early_went_as_nothing_in_the_paper(end: End) -> None:
     record = replace(states_record(duration=10.0), end=end)
