@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import pty
 import re
 import select
 import signal
+import struct
 import subprocess
 import sys
+import termios
 import time
 from pathlib import Path
 
@@ -68,3 +71,40 @@ def interrupted(
     os.close(terminal)
     assert sent, f"{at!r} was never shown: {shown}"
     return process.wait(timeout=60), shown
+
+
+def typed(*shell: str, lines: dict[str, str], cwd: Path, wait_s: float = 60.0) -> list[str]:
+    """What a shell shows after each of some unfinished lines, which are wiped out afterwards.
+
+    Args:
+        shell: command of an interactive shell.
+        lines: what is typed, and a regular expression of the answer that is waited for.
+        cwd: folder of the shell.
+        wait_s: longest wait for an answer [s].
+    """
+    process, terminal = pty.fork()
+    if process == 0:
+        os.chdir(cwd)
+        os.execvpe(shell[0], shell, os.environ | {"TERM": "xterm"})
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("4H", 50, 200, 0, 0))
+
+    def until(expected: str, seconds: float) -> str:
+        shown, end = "", time.monotonic() + seconds
+        while not re.search(expected, shown) and time.monotonic() < end:
+            ready, _, _ = select.select([terminal], [], [], 0.2)
+            shown += os.read(terminal, 65536).decode(errors="replace") if ready else ""
+        return shown
+
+    try:
+        until(r"[$%#>] ", wait_s)
+        seen = []
+        for line, answer in lines.items():
+            until(r"(?!)", 0.3)
+            os.write(terminal, line.encode())
+            seen.append(until(answer, wait_s))
+            os.write(terminal, b"\x15")
+        return seen
+    finally:
+        os.kill(process, signal.SIGKILL)
+        os.waitpid(process, 0)
+        os.close(terminal)

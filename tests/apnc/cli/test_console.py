@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-from command_line import run
 
 from apnc.cli.console import say_file, show_table
 
@@ -87,24 +82,3 @@ def test_a_terminal_gets_a_link_and_a_pipe_the_path(
         assert f";{address}\x1b\\a folder/report.html\x1b]8;;\x1b\\\n" in out
     else:
         assert out == f"report: {Path('a folder', 'report.html')}\n"
-
-
-@pytest.mark.skipif(not shutil.which("bash") or os.name == "nt", reason="completion of bash")
-def test_bash_completes_commands_and_options(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("HOME", str(tmp_path))
-    assert run(capsys, "--install-completion", "bash")[0] == 0
-    script = tmp_path / ".bash_completions" / "apnc.sh"
-    assert str(script) in (tmp_path / ".bashrc").read_text()
-    apnc = tmp_path / "apnc"
-    apnc.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m apnc "$@"\n')
-    apnc.chmod(0o755)
-    for words, found in (("bui", "build build-plant build-system"), ("walk --rou", "--roughness")):
-        typed = f"COMP_WORDS=(apnc {words}); COMP_CWORD={len(words.split())}"
-        done = subprocess.run(
-            ["bash", "-c", f"source {script}; {typed}; _apnc_completion {apnc}; IFS=' '; "
-             'echo "${COMPREPLY[*]}"'],
-            capture_output=True, text=True, check=True,
-        )  # fmt: skip
-        assert done.stdout.strip() == found, done.stderr
