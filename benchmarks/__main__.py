@@ -10,6 +10,7 @@ from benchmarks import (
     mujoco_rollout,
     plant,
     study,
+    tune,
     walk_command,
 )
 from benchmarks.command import main
@@ -17,6 +18,6 @@ from benchmarks.command import main
 if __name__ == "__main__":
     modules = (
         controller, closed_loop, batch, plant, mujoco_rollout, legs, memory, walk_command, install,
-        study,
+        study, tune,
     )  # fmt: skip
     main({module.__name__.split(".")[-1]: module.measure for module in modules}, __doc__)

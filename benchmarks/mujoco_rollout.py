@@ -20,7 +20,7 @@ from mujoco import rollout
 from apnc_plant.ground import GroundInC, Plane
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot import load_robot
+from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.start import start_coordinates
 from benchmarks.command import Size, main
 from benchmarks.fits import Between, between
@@ -58,40 +58,48 @@ class Exported:
         integrator: its name in MuJoCo.
         steps: integration steps per tick.
         sensors: whether MuJoCo computes the robot's sensors.
+        robot: the robot; Lilibot if omitted.
     """
 
-    def __init__(self, integrator: str, steps: int, *, sensors: bool = False) -> None:
-        robot, options = load_robot("lilibot"), PlantOptions()
-        self._model: Any = mujoco.MjModel.from_xml_string(export_mjcf(robot))
-        self._model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator.upper()}")
-        self._model.opt.timestep = TICK / steps
+    def __init__(
+        self,
+        integrator: str,
+        steps: int,
+        *,
+        sensors: bool = False,
+        robot: RobotDescription | None = None,
+    ) -> None:
+        robot, options = robot or load_robot("lilibot"), PlantOptions()
+        self.model: Any = mujoco.MjModel.from_xml_string(export_mjcf(robot))
+        self.model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator.upper()}")
+        self.model.opt.timestep = TICK / steps
         # only the feet touch, as pairs: the robot in C has no other contact
-        self._model.geom_contype[:] = self._model.geom_conaffinity[:] = 0
+        self.model.geom_contype[:] = self.model.geom_conaffinity[:] = 0
         if not sensors:
-            self._model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_SENSOR
-        self._steps = steps
-        self._feet = [self._model.sensor(f"{leg.name}_grf").adr[0] for leg in robot.legs]
+            self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_SENSOR
+        self.steps = steps
+        self.feet = [self.model.sensor(f"{leg.name}_grf").adr[0] for leg in robot.legs]
         ground = GroundInC(Plane(), robot.contact.foot_radius)
         start = start_coordinates(robot_numbers(robot), ground, options)
-        data, kind = mujoco.MjData(self._model), mujoco.mjtState.mjSTATE_FULLPHYSICS
+        data, kind = mujoco.MjData(self.model), mujoco.mjtState.mjSTATE_FULLPHYSICS
         data.qpos[:3], data.qpos[7:] = start[:3], start[6:]
-        self._start = np.zeros(mujoco.mj_stateSize(self._model, kind))
-        mujoco.mj_getState(self._model, data, self._start, kind)
+        self.start = np.zeros(mujoco.mj_stateSize(self.model, kind))
+        mujoco.mj_getState(self.model, data, self.start, kind)
 
     def walk(self, robots: int = 1, threads: int = 1, ticks: int = _TICKS) -> tuple[Any, Any]:
         """The open-loop trot: states and sensors of every robot after every step."""
         hip, knee = trot_commands(ticks)
         commands = np.stack([np.zeros_like(hip), hip, knee], axis=2).reshape(ticks, -1)
-        control = np.repeat(commands, self._steps, axis=0)
-        data = [mujoco.MjData(self._model) for _ in range(threads)]
-        starts, controls = (np.stack([array] * robots) for array in (self._start, control))
-        states, sensors = rollout.rollout(self._model, data, starts, controls)
+        control = np.repeat(commands, self.steps, axis=0)
+        data = [mujoco.MjData(self.model) for _ in range(threads)]
+        starts, controls = (np.stack([array] * robots) for array in (self.start, control))
+        states, sensors = rollout.rollout(self.model, data, starts, controls)
         return states, sensors
 
     def trot(self) -> Trot:
         """The forces on the feet, as ``python -m research.contact`` has them."""
         states, sensors = self.walk()
-        vertical = sensors[0, _SETTLING * self._steps :][:, self._feet]
+        vertical = sensors[0, _SETTLING * self.steps :][:, self.feet]
         forces = np.zeros((*vertical.shape, 3))
         forces[:, :, 2] = vertical
         return Trot(forces, states[0, -1, 1:4])

@@ -14,7 +14,7 @@ from benchmarks import fits, rows
 ROOT = Path(__file__).resolve().parents[2]
 QUICK = (
     "controller", "closed_loop", "batch", "plant", "mujoco_rollout", "legs", "memory",
-    "walk_command", "study",
+    "walk_command", "study", "tune",
 )  # fmt: skip
 """All but ``install``, which fetches packages."""
 
