@@ -79,7 +79,7 @@ class Plant:
         self.mass = robot.mass + self._conditions.payload
         self.time = 0.0
         ground = ground or Plane()
-        self._ground = GroundInC(ground, robot.contact.foot_radius)
+        self._ground = GroundInC(ground, max(robot.foot_radii))
         self._grounds = ffi.new("plant_ground *[1]", [self._ground.at])
         self._numbers = robot_numbers(
             robot,

@@ -180,7 +180,8 @@ def _schema_at(model: Any, location: Location) -> dict[str, Any]:
         whole = _adapter(model).json_schema()
         schema = _resolved(whole, whole.get("$defs", {}))
         for key in location:
-            schema = _of_optional(schema)
+            kinds = [each for each in schema.get("anyOf", ()) if each.get("type") != "null"]
+            schema = kinds[0] if len(kinds) == 1 else schema
             if isinstance(key, int):
                 schema = schema["prefixItems"][key] if "prefixItems" in schema else schema["items"]
             else:

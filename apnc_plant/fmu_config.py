@@ -11,8 +11,9 @@ import numpy as np
 from apnc_plant.conditions import named_conditions
 from apnc_plant.generate import start_macro
 from apnc_plant.ground.obstacles import CELLS, SINK_IN, TILE, Obstacles
-from apnc_plant.numbers import leg_numbers, suspension
-from apnc_plant.robot.model import GRAVITY, PAYLOAD_SIZE, RobotDescription
+from apnc_plant.numbers import bare_trunk, leg_numbers, suspension
+from apnc_plant.robot.body import PAYLOAD_SIZE
+from apnc_plant.robot.model import GRAVITY, RobotDescription
 from apnc_plant.robot.size import times_longer
 from apnc_plant.variables import Condition, starts_of, variable_named
 
@@ -38,10 +39,9 @@ def robot_config(robot: RobotDescription) -> bytes:
             {
                 "ROBOT_GRAVITY": (GRAVITY, "[m/s^2]"),
                 "ROBOT_WEIGHT": (robot.weight, "[N] without payload"),
-                "ROBOT_TRUNK_MASS": (trunk.mass, "[kg]"),
-                "ROBOT_TRUNK_SIZE": (trunk.size, "[m] edges of its box"),
-                "ROBOT_TRUNK_CENTER": (trunk.center, "[m] middle of that box"),
-                "ROBOT_TRUNK_COM": (trunk.com, "[m] centre of mass"),
+                "ROBOT_TRUNK": (_body(bare_trunk(trunk)), "without payload, see plant_body"),
+                "ROBOT_TRUNK_EDGES": (trunk.edges, "[m] of its outline"),
+                "ROBOT_TRUNK_CENTER": (trunk.center, "[m] middle of its outline"),
                 "ROBOT_COM_SIDE_OFFSET": (trunk.com_side_offset, "[m]"),
                 "ROBOT_SUSPENSION": (suspension(robot), "of a held trunk, see plant_suspension"),
                 "ROBOT_PAYLOAD_SIZE": (PAYLOAD_SIZE, "[m] edges of the box on the trunk"),
@@ -61,7 +61,7 @@ def robot_config(robot: RobotDescription) -> bytes:
             {start_macro(variable_named(name)): (v[0], "") for name, v in starts_of(robot).items()}
         ),
         "/* Legs, see plant_leg. */",
-        *_table("ROBOT_LEGS", (_initializer(leg_numbers(leg)) for leg in robot.legs)),
+        *_table("ROBOT_LEGS", (_initializer(leg_numbers(robot, leg)) for leg in robot.legs)),
         "/* Conditions, see plant_model.c. */",
         *_table(
             "ROBOT_CONDITIONS",
@@ -72,6 +72,10 @@ def robot_config(robot: RobotDescription) -> bytes:
         "",
     ]
     return "\n".join(lines).encode()
+
+
+def _body(body: Any) -> list[Any]:
+    return [body.mass, list(body.com), list(body.inertia)]
 
 
 def _defines(values: Mapping[str, tuple[object, str]]) -> list[str]:
@@ -108,6 +112,6 @@ def _initializer(value: Any) -> str:
         return _initializer(list(value.values()))
     if isinstance(value, list | tuple | np.ndarray):
         return "{" + ", ".join(map(_initializer, value)) + "}"
-    if isinstance(value, float) and math.isnan(value):
-        return "NAN"
+    if isinstance(value, float) and not math.isfinite(value):
+        return "NAN" if math.isnan(value) else "INFINITY" if value > 0.0 else "-INFINITY"
     return repr(value) if isinstance(value, int) else repr(float(value))

@@ -46,7 +46,7 @@ class RobotForces:
         """
         ffi, self._lib = library()
         self._robot = robot_numbers(robot)
-        self._ground = GroundInC(ground, robot.contact.foot_radius)
+        self._ground = GroundInC(ground, max(robot.foot_radii))
         self._unpack = ffi.unpack
         n, size = len(robot.legs), BASE + 3 * len(robot.legs)
         self._size, length = size, size + 10 * n

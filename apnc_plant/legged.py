@@ -18,7 +18,8 @@ from apnc_plant.forces import RobotForces
 from apnc_plant.ground import Ground, GroundInC, Plane
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot.model import MassProperties, RobotDescription
+from apnc_plant.robot.body import MassProperties
+from apnc_plant.robot.model import RobotDescription
 from apnc_plant.sensor.load import LoadSensor
 from apnc_plant.signals import PlantError, diverged
 from apnc_plant.start import start_coordinates
@@ -140,7 +141,7 @@ class LeggedPlant:
         options, robot = self._options, self._robot
         offset, payload = side_offset(robot, self._seed), self._conditions.payload
         numbers = robot_numbers(robot, side_offset=offset, payload=payload, gravity=options.gravity)
-        ground = GroundInC(self._ground, robot.contact.foot_radius)
+        ground = GroundInC(self._ground, max(robot.foot_radii))
         self._start = start_coordinates(numbers, ground, options)
         self._commanded = self._start[BASE:].reshape(-1, 3).copy()
         self._coming: deque[tuple[float, Array]] | None = None

@@ -7,19 +7,12 @@ from typing import Any, Final, NamedTuple
 
 from apnc_plant.conditions import Conditions
 from apnc_plant.library import library
+from apnc_plant.robot.body import PAYLOAD_SIZE, MassProperties, Trunk
 from apnc_plant.robot.links import links_of
-from apnc_plant.robot.model import (
-    GRAVITY,
-    PAYLOAD_SIZE,
-    Contact,
-    Leg,
-    MassProperties,
-    RobotDescription,
-    Sensor,
-    Servo,
-    Trunk,
-)
+from apnc_plant.robot.model import GRAVITY, Contact, Leg, RobotDescription, Sensor
+from apnc_plant.robot.servo import Servo
 from apnc_plant.robot.size import times_heavier, times_longer
+from apnc_plant.signals import JOINTS
 
 SUSPENSION: Final = (5000.0, 200.0, 50.0, 2.0)
 """Suspension of the held trunk of Lilibot: stiffness and damping of its position [N/m], [N s/m],
@@ -69,14 +62,14 @@ def robot_numbers(
         gravity: downward acceleration [m/s^2].
     """
     ffi, _ = library()
-    legs = ffi.new("plant_leg[]", [leg_numbers(leg) for leg in robot.legs])
+    legs = ffi.new("plant_leg[]", [leg_numbers(robot, leg) for leg in robot.legs])
     numbers = {
         "legs": len(robot.legs),
         "gravity": gravity,
         "weight": robot.weight,
         "trunk": _loaded(robot.trunk, side_offset, payload)[0],
         "trunk_center": list(robot.trunk.center),
-        "trunk_size": list(robot.trunk.size),
+        "trunk_size": list(robot.trunk.edges),
         "servo": servo_numbers(robot.servo),
         "contact": contact_numbers(robot.contact),
         "sensor": sensor_numbers(robot.sensor),
@@ -89,16 +82,25 @@ def robot_numbers(
 def _loaded(trunk: Trunk, side_offset: float, payload: float) -> Any:
     """As ``Trunk.loaded``, by the functions of the robot's FMU, so that the bits are the same."""
     ffi, lib = library()
-    own, box = ffi.new("plant_body *"), ffi.new("plant_body *")
-    (x, y, z), size = trunk.com, trunk.size
-    lib.plant_box(trunk.mass, size, [x, y + side_offset, z], own)
-    (x, y, z), above = trunk.center, (size[2] + PAYLOAD_SIZE[2]) / 2.0
+    own, box = bare_trunk(trunk), ffi.new("plant_body *")
+    own.com[1] += side_offset
+    (x, y, z), above = trunk.center, (trunk.edges[2] + PAYLOAD_SIZE[2]) / 2.0
     lib.plant_box(payload, PAYLOAD_SIZE, [x, y, z + above], box)
     lib.plant_join(own, box, own)
     return own
 
 
-def leg_numbers(leg: Leg) -> dict[str, Any]:
+def bare_trunk(trunk: Trunk) -> Any:
+    """The trunk alone as ``plant_body``."""
+    ffi, lib = library()
+    body = ffi.new("plant_body *")
+    lib.plant_box(trunk.mass, trunk.size, trunk.com, body)
+    if trunk.inertia is not None:
+        body.inertia = trunk.inertia
+    return body
+
+
+def leg_numbers(robot: RobotDescription, leg: Leg) -> dict[str, Any]:
     """A leg as ``plant_leg``, for cffi."""
     return {
         "mount": list(leg.mount),
@@ -108,8 +110,32 @@ def leg_numbers(leg: Leg) -> dict[str, Any]:
         "femur_angle": leg.femur_angle,
         "tibia_angle": leg.tibia_angle,
         "link": [_body(link.body) for link in links_of(leg)],
+        "joint": [_joint(robot, leg, *each) for each in zip(JOINTS, leg.stops, strict=True)],
+        "foot_radius": math.nan if leg.foot_radius is None else leg.foot_radius,
         "abduction_angle": leg.side * leg.abduction_angle,
         "knee_in_front": int(leg.knee == ">"),
+    }
+
+
+_TUNED: Final = ("stiffness", "damping", "stall_torque", "no_load_speed", "reflected_inertia")
+"""What a joint has from the robot's servo, which may change later, unless it has its own."""
+
+
+def _joint(
+    robot: RobotDescription, leg: Leg, joint: str, stops: tuple[float, float]
+) -> dict[str, float]:
+    """A joint as ``plant_joint``, for cffi."""
+    servo, own = robot.servo_of(leg, joint), robot.servo.own_of_joint(joint, leg.servo)
+    stiffness, damping = servo.stop
+    return {
+        **{key: own.get(key, math.nan) for key in _TUNED},
+        "joint_damping": servo.joint_damping,
+        "dry_friction": servo.dry_friction,
+        "friction_speed": servo.friction_speed,
+        "low": stops[0],
+        "high": stops[1],
+        "stop_stiffness": stiffness,
+        "stop_damping": damping,
     }
 
 

@@ -11,8 +11,10 @@ import numpy as np
 
 from apnc_core.types import Array
 from apnc_plant.coordinates import BASE
+from apnc_plant.robot.body import MassProperties
 from apnc_plant.robot.links import Link, links_of
-from apnc_plant.robot.model import Leg, MassProperties, RobotDescription, Vector3
+from apnc_plant.robot.model import Leg, RobotDescription
+from apnc_plant.robot.quantities import Vector3
 from exudyn_models.engine import exu, items
 
 UPRIGHT: Final = np.eye(3)
@@ -84,7 +86,7 @@ def add_tree(
         )
     )
     tree = mbs.AddObject(_tree_object(links, node, gravity, forces))
-    _add_reflected_inertia(mbs, node, size, robot.servo.reflected_inertia)
+    _add_reflected_inertia(mbs, node, robot)
     return tree
 
 
@@ -119,10 +121,10 @@ def _tree_object(links: _Links, node: Any, gravity: float, forces: Forces) -> An
     )
 
 
-def _add_reflected_inertia(mbs: Any, node: Any, size: int, inertia: float) -> None:
+def _add_reflected_inertia(mbs: Any, node: Any, robot: RobotDescription) -> None:
     # The tree has no field for rotor inertia; a second object on the same node adds it to M.
-    diagonal = np.zeros(size)
-    diagonal[BASE:] = inertia
+    joints = [robot.servo_of(leg, link.joint) for leg in robot.legs for link in links_of(leg)]
+    diagonal = np.array([0.0] * BASE + [joint.reflected_inertia for joint in joints])
     mbs.AddObject(items().ObjectGenericODE2(nodeNumbers=[node], massMatrix=np.diag(diagonal)))
 
 

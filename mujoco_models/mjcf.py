@@ -13,13 +13,18 @@ from scipy.spatial.transform import Rotation
 from apnc_plant.ground import GroundInC, Plane
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot.links import JOINT_RANGE, links_of
-from apnc_plant.robot.model import GRAVITY, Leg, MassProperties, RobotDescription
+from apnc_plant.robot.body import MassProperties
+from apnc_plant.robot.links import links_of, range_of
+from apnc_plant.robot.model import GRAVITY, Leg, RobotDescription
+from apnc_plant.robot.servo import Servo
 from apnc_plant.start import start_coordinates
 from mujoco_models.contact import IMPRATIO, STEP, Geom, geom_of, pair_of
 
 SERVOS: Final = ("position", "dcmotor")
 """Ways to write the servos, see :func:`robot_mjcf`."""
+
+NO_LOAD_SPEED: Final = "no_load_speed"
+"""Name of a number in ``custom``."""
 
 _BASE: Final = (
     ("slide", "x", "1 0 0"),
@@ -77,13 +82,13 @@ def robot_mjcf(
     if servo not in SERVOS:
         raise ValueError(f"servo '{servo}' is not one of {', '.join(SERVOS)}")
     root, body = _model(robot)
-    ground, start = GroundInC(Plane(), robot.contact.foot_radius), PlantOptions()
+    ground, start = GroundInC(Plane(), max(robot.foot_radii)), PlantOptions()
     start_position = _numbers(start_coordinates(robot_numbers(robot), ground, start)[:3])
     body.set("pos", start_position)
     _add(body, "freejoint", name="base")
     trunk = robot.trunk
     _inertial(body, trunk.loaded(0.0, 0.0))
-    _box(body, trunk.center, trunk.size, _TOUCHING)
+    _box(body, trunk.center, trunk.edges, _TOUCHING)
     _add(body, "site", name="imu")
     for leg, admittance in zip(robot.legs, admittances, strict=True):
         _leg(body, leg, robot, geom_of(robot, admittance))
@@ -126,8 +131,10 @@ def _model(robot: RobotDescription) -> tuple[Element, Element]:
 def _leg(trunk: Element, leg: Leg, robot: RobotDescription, foot: Geom | None = None) -> None:
     """A leg: with contact parameters of its foot for other programs, without for our own plant."""
     at = trunk
-    for link, box in zip(links_of(leg), (leg.hip, leg.femur, leg.tibia), strict=True):
-        half = link.turn / 2.0
+    for link, box, stops in zip(
+        links_of(leg), (leg.hip, leg.femur, leg.tibia), leg.stops, strict=True
+    ):
+        half, servo = link.turn / 2.0, robot.servo_of(leg, link.joint)
         turn = (cos(half), *(sin(half) * part for part in link.axis))
         at = _add(
             at, "body", name=f"{leg.name}_{link.name}",
@@ -136,21 +143,23 @@ def _leg(trunk: Element, leg: Leg, robot: RobotDescription, foot: Geom | None = 
         joint = _add(
             at, "joint", name=f"{leg.name}_{link.joint}",
             axis=_numbers(link.positive if foot else link.axis),
-            armature=repr(robot.servo.reflected_inertia),
+            armature=repr(servo.reflected_inertia),
         )  # fmt: skip
         _inertial(at, link.body)
         if foot:
-            joint.set("range", _numbers(JOINT_RANGE))
-            joint.set("actuatorfrcrange", _numbers(_within(robot.servo.stall_torque)))
+            joint.set("range", _numbers(range_of(stops)))
+            joint.set("actuatorfrcrange", _numbers(_within(servo.stall_torque)))
+            joint.set("damping", repr(servo.joint_damping))
+            joint.set("frictionloss", repr(servo.dry_friction))
             # the box of a tibia must not collide: its edges would touch beside the ball
             touch = _UNTOUCHED if box is leg.tibia else _TOUCHING
             _box(at, leg.outward(box.com), box.size, touch)
     ball = {"pos": _numbers((0.0, 0.0, -leg.tibia_length)), "type": "sphere"}
-    radius = repr(robot.contact.foot_radius)
+    radius = robot.foot_radius_of(leg)
     touch = {**_TOUCHING, "priority": "1", **_contact(robot, *foot)} if foot else _UNTOUCHED
-    _add(at, "geom", ball, name=foot_of(leg), size=radius, rgba=_RUBBER, **touch)
+    _add(at, "geom", ball, name=foot_of(leg), size=repr(radius), rgba=_RUBBER, **touch)
     # the load sensor sums the contacts inside its site, so the site is larger than the ball
-    size = repr(1.5 * robot.contact.foot_radius)
+    size = repr(1.5 * radius)
     _add(at, "site", ball, name=foot_of(leg), size=size, rgba="0 0 0 0")
 
 
@@ -210,25 +219,40 @@ def _ground(root: Element, robot: RobotDescription, admittances: Sequence[float]
 
 
 def _actuators(root: Element, robot: RobotDescription, servo: str) -> None:
-    motors, of = robot.servo, _add(root, "actuator")
-    stall, speed = motors.stall_torque, motors.no_load_speed
+    servos = [robot.servo_of(leg, link.joint) for leg in robot.legs for link in links_of(leg)]
+    if servo == "position":
+        _no_load_speeds(_add(root, "custom"), robot, servos)
+    of = _add(root, "actuator")
+    for joint, motor in zip(joints_of(robot), servos, strict=True):
+        _add(of, servo, _gains(motor, servo), name=joint, joint=joint)
+
+
+def _gains(motor: Servo, servo: str) -> dict[str, str]:
+    """Attributes of an actuator."""
+    stall, speed = motor.stall_torque, motor.no_load_speed
     if servo == "dcmotor":
         # any supply voltage gives the same line from stall torque to no-load speed
-        gains = {
+        return {
             "nominal": _numbers((1.0, stall, speed)),
             "saturation": _numbers((stall, 0.0, 0.0)),
             "input": "pos",
-            "controller": _numbers((motors.stiffness, 0.0, motors.damping, 0.0, 0.0, 1.0)),
+            "controller": _numbers((motor.stiffness, 0.0, motor.damping, 0.0, 0.0, 1.0)),
         }
-    else:
-        gains = {
-            "kp": repr(motors.stiffness),
-            "kv": repr(motors.damping),
-            "forcerange": _numbers(_within(stall)),
-        }
-        _add(_add(root, "custom"), "numeric", name="no_load_speed", data=repr(speed))
-    for joint in joints_of(robot):
-        _add(of, servo, gains, name=joint, joint=joint)
+    return {
+        "kp": repr(motor.stiffness),
+        "kv": repr(motor.damping),
+        "forcerange": _numbers(_within(stall)),
+    }
+
+
+def _no_load_speeds(custom: Element, robot: RobotDescription, servos: Sequence[Servo]) -> None:
+    """Note the no-load speed, and that of joints with another one as ``no_load_speed:JOINT``."""
+    common = robot.servo.no_load_speed
+    _add(custom, "numeric", name=NO_LOAD_SPEED, data=repr(common))
+    for joint, motor in zip(joints_of(robot), servos, strict=True):
+        if motor.no_load_speed != common:
+            name = f"{NO_LOAD_SPEED}:{joint}"
+            _add(custom, "numeric", name=name, data=repr(motor.no_load_speed))
 
 
 def _sensors(root: Element, robot: RobotDescription) -> None:

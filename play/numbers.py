@@ -19,11 +19,11 @@ from apnc_core.variable_numbers import VARIABLE_NUMBERS
 from apnc_core.variables import TABLE
 from apnc_plant.ground.obstacles import CELLS, SINK_IN, STEP_HEIGHT, TILE, Obstacles
 from apnc_plant.library import declarations, library
-from apnc_plant.numbers import robot_numbers
+from apnc_plant.numbers import bare_trunk, robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription
+from apnc_plant.robot.body import PAYLOAD_SIZE
 from apnc_plant.robot.links import links_of
-from apnc_plant.robot.model import PAYLOAD_SIZE
 from apnc_plant.signals import PLANT_SIGNALS
 from build_fmu.library import headers
 
@@ -53,7 +53,8 @@ def struct_of(robot: RobotDescription) -> bytes:
         _copy(ffi, ffi.addressof(own.leg, k), numbers.at.leg + k)
     trunk = robot.trunk
     own.trunk_mass, own.com_side_offset = trunk.mass, trunk.com_side_offset
-    own.trunk_size, own.trunk_com, own.payload_size = trunk.size, trunk.com, PAYLOAD_SIZE
+    own.trunk_inertia, own.trunk_com = bare_trunk(trunk).inertia, trunk.com
+    own.payload_size = PAYLOAD_SIZE
     own.field = {
         "balls": round(field.density * TILE**2),
         "cells": CELLS,
@@ -61,7 +62,7 @@ def struct_of(robot: RobotDescription) -> bytes:
         "height": STEP_HEIGHT,
         "smallest": field.diameters[0],
         "largest": field.diameters[1],
-        "foot_radius": robot.contact.foot_radius,
+        "foot_radius": max(robot.foot_radii),
         "sink_in": SINK_IN,
     }
     own.clearance, own.step, own.Ts = options.clearance, run.step, run.Ts
@@ -97,9 +98,9 @@ def robot_data(name: str) -> dict[str, Any]:
         "legs": legs,
         "colours": list(theme.leg_colours(legs).values()),
         "numbers": base64.b64encode(struct_of(robot)).decode(),
-        "trunk": {"size": robot.trunk.size, "center": robot.trunk.center},
+        "trunk": {"size": robot.trunk.edges, "center": robot.trunk.center},
         "payload": PAYLOAD_SIZE,
-        "footRadius": robot.contact.foot_radius,
+        "footRadius": max(robot.foot_radii),
         "weight": robot.weight,
         "chains": chains_of(robot),
         "gaits": metrics.GAITS.get(n, {}),

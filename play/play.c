@@ -57,9 +57,9 @@ static void load_trunk(void) {
     const double off = plant_side_offset(seed, n->com_side_offset);
     const double own[3] = {n->trunk_com[0], n->trunk_com[1] + off, n->trunk_com[2]};
     const double *c = n->robot.trunk_center;
-    const double top[3] = {c[0], c[1], c[2] + (n->trunk_size[2] + n->payload_size[2]) / 2.0};
-    plant_body trunk, box;
-    plant_box(n->trunk_mass, n->trunk_size, own, &trunk);
+    const double top[3] = {c[0], c[1], c[2] + (n->robot.trunk_size[2] + n->payload_size[2]) / 2.0};
+    plant_body box, trunk = {n->trunk_mass, {own[0], own[1], own[2]}, {0}};
+    memcpy(trunk.inertia, n->trunk_inertia, sizeof trunk.inertia);
     plant_box(payload, n->payload_size, top, &box);
     plant_join(&trunk, &box, &numbers.robot.trunk);
     numbers.robot.leg = numbers.leg;

@@ -67,7 +67,7 @@ class Run:
         numbers = robot_numbers(
             robot, side_offset=side_offset(robot, experiment.seed), payload=first.payload
         )
-        surface = GroundInC(ground, robot.contact.foot_radius)
+        surface = GroundInC(ground, max(robot.foot_radii))
         start = start_coordinates(numbers, surface, PlantOptions())
         conditions = [conditions_numbers(c, names, robot.weight) for _, c in steps]
         starts, kept = controller.starts(experiment.starts())
@@ -319,5 +319,5 @@ class Batch:
 
 def contacts_of(experiments: Sequence[Experiment]) -> int:
     """Largest number of contacts of a foot with any of the grounds."""
-    grounds = {(e.ground, e.description.contact.foot_radius) for e in experiments}
+    grounds = {(e.ground, max(e.description.foot_radii)) for e in experiments}
     return max(ground.numbers(radius).contacts for ground, radius in grounds)

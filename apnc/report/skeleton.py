@@ -81,7 +81,7 @@ def clearance(ground: Ground, robot: RobotDescription, feet: Array) -> Array:
         feet: centres of the feet in the world [m], shape (T, n, 3).
     """
     x, y, z = np.moveaxis(in_ground(ground, feet), -1, 0)
-    gap: Array = z - robot.contact.foot_radius - ground.elevation(x, y)
+    gap: Array = z - robot.foot_radii - ground.elevation(x, y)
     return gap
 
 

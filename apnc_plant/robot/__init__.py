@@ -1,22 +1,19 @@
 """Robots as data, and the files they are read from."""
 
+from apnc_plant.robot.body import PAYLOAD_SIZE, Body, MassProperties, Trunk
 from apnc_plant.robot.file import ROBOTS, load_robot
 from apnc_plant.robot.joint_map import JointMap
 from apnc_plant.robot.model import (
     GRAVITY,
-    PAYLOAD_SIZE,
-    Body,
     Contact,
     JointInFile,
     JointsInFile,
     Leg,
-    MassProperties,
     RobotDescription,
-    RobotDescriptionError,
     Sensor,
-    Servo,
-    Trunk,
 )
+from apnc_plant.robot.quantities import RobotDescriptionError
+from apnc_plant.robot.servo import JointServo, LegServos, Servo
 
 __all__ = [
     "GRAVITY",
@@ -26,8 +23,10 @@ __all__ = [
     "Contact",
     "JointInFile",
     "JointMap",
+    "JointServo",
     "JointsInFile",
     "Leg",
+    "LegServos",
     "MassProperties",
     "RobotDescription",
     "RobotDescriptionError",

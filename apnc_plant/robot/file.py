@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from apnc_plant.files import Location, checked_table, read_table
-from apnc_plant.robot.model import RobotDescription, RobotDescriptionError
+from apnc_plant.robot.model import RobotDescription
+from apnc_plant.robot.quantities import RobotDescriptionError
 
 Table = Mapping[str, Any]
 

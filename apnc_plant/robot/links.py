@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import isfinite, pi
 from typing import Final, NamedTuple
 
-from apnc_plant.robot.model import Leg, MassProperties, Vector3
+from apnc_plant.robot.body import MassProperties
+from apnc_plant.robot.model import Leg
+from apnc_plant.robot.quantities import Vector3
 
 JOINT_RANGE: Final = (-pi, pi)
-"""Range of every joint [rad] for formats that need one. It is a full turn: joints have no stops."""
+"""Range of a joint without stops [rad] for formats that need one: a full turn."""
 
 
 class Link(NamedTuple):
@@ -51,3 +53,11 @@ def links_of(leg: Leg) -> tuple[Link, Link, Link]:
         Link("femur_link", "hip", to_hip, y, leg.femur_angle, -1.0, femur),
         Link("tibia_link", "knee", to_knee, y, -leg.tibia_angle, flexes, tibia),
     )
+
+
+def range_of(stops: tuple[float, float]) -> tuple[float, float]:
+    """Range of a joint for formats that need one [rad], with ``JOINT_RANGE`` for missing stops."""
+    low, high = (
+        stop if isfinite(stop) else full for stop, full in zip(stops, JOINT_RANGE, strict=True)
+    )
+    return low, high

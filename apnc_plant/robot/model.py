@@ -4,124 +4,34 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import field, fields
 from functools import partial
 from typing import Annotated, Any, Final, Literal
 
 import numpy as np
-from pydantic import AfterValidator, ValidationInfo, ValidatorFunctionWrapHandler, WrapValidator
+from pydantic import AfterValidator
 
 from apnc_core import settings
 from apnc_core.frozen import Frozen
-from apnc_core.types import Array
 from apnc_core.variables import variable_named
 from apnc_plant.files import Number, checked, limits
+from apnc_plant.robot.body import Body, MassProperties, Trunk
 from apnc_plant.robot.joint_map import JointMap
-
-
-class RobotDescriptionError(ValueError):
-    """A robot file is missing, or a value in it or in a robot is not allowed."""
-
-
-def _angle(value: Any, check: ValidatorFunctionWrapHandler, info: ValidationInfo) -> float:
-    """An angle in rad; it is checked in degrees, which is what a file holds."""
-    in_file = bool(info.context)
-    if in_file or isinstance(value, bool) or not isinstance(value, int | float):
-        return math.radians(check(value))
-    check(math.degrees(value))
-    return float(value)
-
-
-Length = Annotated[Number, limits("m")]
-Edge = Annotated[Number, limits("m", gt=0.0)]
-Angle = Annotated[Number, limits("deg", ge=-180.0, le=180.0), WrapValidator(_angle)]
-_ODD = r"\p{Cc}\p{Zl}\p{Zp}\p{Noncharacter_Code_Point}"  # not in a line of every file format
-_NAME = rf"^[^{_ODD}]*[^\s{_ODD}][^{_ODD}]*$"
-Name = Annotated[str, limits(allowed="a name without control characters", pattern=_NAME)]
-
-Vector3 = tuple[Length, Length, Length]
+from apnc_plant.robot.quantities import (
+    Angle,
+    Edge,
+    Name,
+    Range,
+    RobotDescriptionError,
+    Turns,
+    Vector3,
+)
+from apnc_plant.robot.servo import LegServos, Servo
 
 GRAVITY: Final = 9.81
 
-PAYLOAD_SIZE: Final = (0.1, 0.1, 0.06)
-"""Edges of the box that represents a payload [m]."""
-
-
-@dataclass(frozen=True)
-class MassProperties:
-    """Mass [kg], centre of mass [m], shape (3,), and inertia about it [kg m^2], shape (3, 3)."""
-
-    mass: float
-    com: Array
-    inertia: Array
-
-    def joined(self, other: MassProperties) -> MassProperties:
-        """Mass properties of both bodies rigidly connected, by the parallel-axis theorem."""
-        mass = self.mass + other.mass
-        com = (self.mass * self.com + other.mass * other.com) / mass
-        inertia = self._about(com) + other._about(com)
-        return MassProperties(mass, com, inertia)
-
-    def _about(self, point: Array) -> Array:
-        d = self.com - point
-        return self.inertia + self.mass * ((d @ d) * np.eye(3) - np.outer(d, d))
-
-
-def _box_inertia(mass: float, size: Vector3) -> Array:
-    x, y, z = (edge**2 for edge in size)
-    return np.diag([y + z, x + z, x + y]) * (mass / 12.0)
-
-
-@checked(RobotDescriptionError)
-class Body:
-    """A rigid link with the inertia of a homogeneous box.
-
-    Args:
-        mass: mass [kg].
-        size: edge lengths of the box [m].
-        com: centre of mass in the frame of the link [m].
-    """
-
-    mass: Annotated[Number, limits("kg", gt=0.0)]
-    size: tuple[Edge, Edge, Edge]
-    com: Vector3
-
-    def inertia(self) -> Array:
-        """Inertia tensor about the centre of mass [kg m^2], shape (3, 3)."""
-        return _box_inertia(self.mass, self.size)
-
-
-@checked(RobotDescriptionError)
-class Trunk(Body):
-    """The body that carries the legs.
-
-    Args:
-        mass, size: as in :class:`Body`.
-        com: centre of mass, measured from the reference point between the hips [m].
-        center: middle of the box [m]; differs from the centre of mass.
-        com_side_offset: size of the seeded sideways error of the centre of mass [m].
-    """
-
-    center: Vector3 = (0.0, 0.0, 0.0)
-    com_side_offset: Annotated[Number, limits("m", ge=0.0)] = 0.0
-
-    def corners(self) -> Array:
-        """Corners of the box relative to the reference point [m], shape (8, 3)."""
-        signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, 8).T
-        return np.asarray(self.center) + signs * (np.asarray(self.size) / 2.0)
-
-    def loaded(self, side_offset: float, payload: float) -> MassProperties:
-        """Mass properties with a box of ``PAYLOAD_SIZE`` standing on the middle of the trunk.
-
-        Args:
-            side_offset: sideways error of the trunk's own centre of mass [m].
-            payload: mass of the box [kg].
-        """
-        com = np.add(self.com, [0.0, side_offset, 0.0])
-        own = MassProperties(self.mass, com, self.inertia())
-        top = (self.size[2] + PAYLOAD_SIZE[2]) / 2.0
-        on_top = np.add(self.center, [0.0, 0.0, top])
-        return own.joined(MassProperties(payload, on_top, _box_inertia(payload, PAYLOAD_SIZE)))
+FREE: Final = (-math.inf, math.inf)
+"""Range of a joint without stops [rad]."""
 
 
 @checked(RobotDescriptionError)
@@ -136,7 +46,7 @@ class JointInFile:
 
     name: Name
     sign: Literal[1, -1] = 1
-    offset: Annotated[Number, limits("deg", ge=-360.0, le=360.0), WrapValidator(_angle)] = 0.0
+    offset: Turns = 0.0
 
 
 @checked(RobotDescriptionError)
@@ -166,10 +76,14 @@ class Leg:
         knee: ``"<"`` for a knee behind the line from hip to foot, ``">"`` for one in front of it. A
             positive angle of the knee flexes it either way.
         abduction_angle: reference pose, foot outward of vertical [rad].
+        abduction_range, femur_range, tibia_range: stops of the joints, as values of
+            ``abduction_angle``, ``femur_angle`` and ``tibia_angle`` [rad]; None for none.
+        foot_radius: radius of its foot ball [m]; None for that of the contact.
+        servo: what its servos have of their own.
 
     Raises:
-        RobotDescriptionError: a value out of range, or ``knee`` and ``tibia_angle`` contradict each
-            other.
+        RobotDescriptionError: a value out of range, ``knee`` and ``tibia_angle`` contradict each
+            other, or the reference pose is not between the stops.
     """
 
     name: Name
@@ -185,6 +99,11 @@ class Leg:
     joints: JointsInFile = field(default_factory=JointsInFile)
     knee: Literal["<", ">"] = "<"
     abduction_angle: Angle = 0.0
+    abduction_range: Range | None = None
+    femur_range: Range | None = None
+    tibia_range: Range | None = None
+    foot_radius: Edge | None = None
+    servo: LegServos = field(default_factory=LegServos)
 
     def __post_init__(self) -> None:
         if (self.tibia_angle > 0.0) if self.knee == ">" else (self.tibia_angle < 0.0):
@@ -193,6 +112,32 @@ class Leg:
                 f"knee is {self.knee!r} and tibia_angle is "
                 f"{math.degrees(self.tibia_angle):.4g} deg; allowed with it: {allowed}"
             )
+        for key, stops, angle in (
+            ("abduction_range", self.abduction_range, self.abduction_angle),
+            ("femur_range", self.femur_range, self.femur_angle),
+            ("tibia_range", self.tibia_range, self.tibia_angle),
+        ):
+            if stops is not None and not stops[0] < angle < stops[1]:
+                low, high, at = (f"{math.degrees(each):.4g}" for each in (*stops, angle))
+                raise ValueError(
+                    f"{key} is {low} to {high} deg; allowed: around the reference pose, at {at}"
+                )
+
+    @property
+    def stops(self) -> tuple[tuple[float, float], ...]:
+        """Lowest and highest joint angle of abduction, hip and knee [rad]; infinite without."""
+        # what a positive joint angle does to the angle of the file: a positive hip angle swings
+        # the leg forward, a positive knee angle flexes the knee
+        signs = (self.side, -1.0, -1.0 if self.knee == ">" else 1.0)
+        ranges = (self.abduction_range, self.femur_range, self.tibia_range)
+        angles = (self.abduction_angle, self.femur_angle, self.tibia_angle)
+        stops = []
+        for sign, (low, high), angle in zip(
+            signs, (each or FREE for each in ranges), angles, strict=True
+        ):
+            ends = sign * (low - angle), sign * (high - angle)
+            stops.append((min(ends), max(ends)))
+        return tuple(stops)
 
     @property
     def side(self) -> float:
@@ -205,35 +150,16 @@ class Leg:
 
     def mass_properties(self, link: Body) -> MassProperties:
         """Mass properties of one of the links, on the side this leg is on."""
-        return MassProperties(link.mass, np.array(self.outward(link.com)), link.inertia())
+        mirror = np.array(self.outward((1.0, 1.0, 1.0)))
+        inertia = link.inertia_tensor()
+        if link.inertia is not None:
+            inertia = inertia * np.outer(mirror, mirror)
+        return MassProperties(link.mass, np.array(self.outward(link.com)), inertia)
 
     @property
     def mass(self) -> float:
         """Mass of the three links [kg]."""
         return self.hip.mass + self.femur.mass + self.tibia.mass
-
-
-@checked(RobotDescriptionError)
-class Servo:
-    """A geared position servo.
-
-    Args:
-        stiffness: torque per position error [N m/rad].
-        damping: torque per joint speed [N m s/rad].
-        stall_torque: largest torque [N m].
-        no_load_speed: speed at which no driving torque is left [rad/s].
-        reflected_inertia: rotor inertia times the gear ratio squared [kg m^2].
-        latency: age of a command when the servo starts to follow it [s].
-        slew_rate: fastest change of the command that the servo follows [rad/s]; 0 for no limit.
-    """
-
-    stiffness: Annotated[Number, limits("N m/rad", gt=0.0)]
-    damping: Annotated[Number, limits("N m s/rad", ge=0.0)]
-    stall_torque: Annotated[Number, limits("N m", gt=0.0)]
-    no_load_speed: Annotated[Number, limits("rad/s", gt=0.0)]
-    reflected_inertia: Annotated[Number, limits("kg m^2", ge=0.0)] = 0.0
-    latency: Annotated[Number, limits("s", ge=0.0)] = 0.0
-    slew_rate: Annotated[Number, limits("rad/s", ge=0.0)] = 0.0
 
 
 @checked(RobotDescriptionError)
@@ -394,6 +320,19 @@ class RobotDescription:
     def mass(self) -> float:
         """Total mass [kg]."""
         return self.trunk.mass + sum(leg.mass for leg in self.legs)
+
+    def servo_of(self, leg: Leg, joint: str) -> Servo:
+        """The servo of a joint of a leg, with nothing left to its joints."""
+        return self.servo.of_joint(joint, leg.servo)
+
+    def foot_radius_of(self, leg: Leg) -> float:
+        """Radius of the foot ball of a leg [m]."""
+        return self.contact.foot_radius if leg.foot_radius is None else leg.foot_radius
+
+    @property
+    def foot_radii(self) -> tuple[float, ...]:
+        """Radii of all feet [m]."""
+        return tuple(map(self.foot_radius_of, self.legs))
 
     @property
     def weight(self) -> float:

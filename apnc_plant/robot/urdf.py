@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Final
+from typing import Any, Final
 from xml.etree import ElementTree
 
 import numpy as np
 
-from apnc_plant.robot.links import JOINT_RANGE, links_of
-from apnc_plant.robot.model import Body, Leg, MassProperties, RobotDescription
+from apnc_plant.robot.body import MassProperties
+from apnc_plant.robot.links import links_of, range_of
+from apnc_plant.robot.model import Leg, RobotDescription
 from apnc_plant.robot.names import plainly_named
+from apnc_plant.robot.servo import Servo
 
 ROOTS: Final = ("trunk", "base")
 """Names that the root link may have, see :func:`robot_urdf`."""
@@ -25,9 +27,10 @@ _NOTHING: Final = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))
 def robot_urdf(robot: RobotDescription, *, root: str = "trunk") -> str:
     """A robot as URDF, its joints with our signs and reference pose.
 
-    Joints are ``revolute`` with ``JOINT_RANGE``. ``effort`` is the stall torque, ``velocity`` the
-    no-load speed. URDF has no element for the line between them, for rotor inertia and for contact
-    stiffness; a comment gives stiffness, damping and rotor inertia of the servo. The collision
+    Joints are ``revolute`` between their stops, or with ``JOINT_RANGE``. ``effort`` is the stall
+    torque, ``velocity`` the no-load speed. URDF has no element for the line between them, for rotor
+    inertia and for contact stiffness; a comment gives stiffness, damping and rotor inertia of the
+    servo, one in a joint those of its own. The collision
     shapes are boxes for trunk, hip and femur links and a ball at each tibia for the foot. A link of
     zero mass marks the centre of the ball; it has an inertial, because some loaders count a link
     without one as 1 kg.
@@ -46,18 +49,13 @@ def robot_urdf(robot: RobotDescription, *, root: str = "trunk") -> str:
     if root not in ROOTS:
         raise ValueError(f"root '{root}' is not one of {', '.join(ROOTS)}")
     robot = plainly_named(robot)
-    model, servo = Element("robot", name=robot.name), robot.servo
-    model.append(
-        ElementTree.Comment(
-            f" servo: stiffness {servo.stiffness!r} N m/rad, damping {servo.damping!r} N m s/rad, "
-            f"reflected rotor inertia {servo.reflected_inertia!r} kg m^2 "
-        )
-    )
+    model = Element("robot", name=robot.name)
+    model.append(_comment(robot.servo))
     if root != "trunk":
         _add(model, "link", name=root)
         _joint(model, "floating_base", "fixed", root, "trunk")
     trunk = robot.trunk
-    _box(_link(model, "trunk", trunk.loaded(0.0, 0.0)), trunk.center, trunk, _TOUCHING)
+    _box(_link(model, "trunk", trunk.loaded(0.0, 0.0)), trunk.center, trunk.edges, _TOUCHING)
     for leg in robot.legs:
         _leg(model, leg, robot)
     ElementTree.indent(model)
@@ -65,13 +63,16 @@ def robot_urdf(robot: RobotDescription, *, root: str = "trunk") -> str:
 
 
 def _leg(root: Element, leg: Leg, robot: RobotDescription) -> None:
-    parent, servo = "trunk", robot.servo
-    limits = dict(zip(("lower", "upper"), map(repr, JOINT_RANGE), strict=True))
-    limits |= {"effort": repr(servo.stall_torque), "velocity": repr(servo.no_load_speed)}
-    for link, box in zip(links_of(leg), (leg.hip, leg.femur, leg.tibia), strict=True):
+    parent, common = "trunk", _comment(robot.servo).text
+    for link, box, stops in zip(
+        links_of(leg), (leg.hip, leg.femur, leg.tibia), leg.stops, strict=True
+    ):
+        servo = robot.servo_of(leg, link.joint)
+        limits = dict(zip(("lower", "upper"), map(repr, range_of(stops)), strict=True))
+        limits |= {"effort": repr(servo.stall_torque), "velocity": repr(servo.no_load_speed)}
         name = f"{leg.name}_{link.name}"
         element = _link(root, name, link.body)
-        _box(element, leg.outward(box.com), box, _SEEN if box is leg.tibia else _TOUCHING)
+        _box(element, leg.outward(box.com), box.size, _SEEN if box is leg.tibia else _TOUCHING)
         joint = _joint(root, f"{leg.name}_{link.joint}", "revolute", parent, name)
         _add(
             joint,
@@ -81,15 +82,28 @@ def _leg(root: Element, leg: Leg, robot: RobotDescription) -> None:
         )
         _add(joint, "axis", xyz=_numbers(link.positive))
         _add(joint, "limit", limits)
+        if servo.joint_damping or servo.dry_friction:
+            passive = {"damping": servo.joint_damping, "friction": servo.dry_friction}
+            _add(joint, "dynamics", {key: repr(value) for key, value in passive.items()})
+        if (comment := _comment(servo)).text != common:
+            joint.append(comment)
         parent = name
     foot = (0.0, 0.0, -leg.tibia_length)
     for kind in _TOUCHING:
         shape = _add(element, kind)
         _add(shape, "origin", xyz=_numbers(foot))
-        _add(_add(shape, "geometry"), "sphere", radius=repr(robot.contact.foot_radius))
+        _add(_add(shape, "geometry"), "sphere", radius=repr(robot.foot_radius_of(leg)))
     _link(root, f"{leg.name}_foot", _NOTHING)
     fixed = _joint(root, f"{leg.name}_foot_joint", "fixed", parent, f"{leg.name}_foot")
     _add(fixed, "origin", xyz=_numbers(foot))
+
+
+def _comment(servo: Servo) -> Any:
+    """What URDF has no element for."""
+    return ElementTree.Comment(
+        f" servo: stiffness {servo.stiffness!r} N m/rad, damping {servo.damping!r} N m s/rad, "
+        f"reflected rotor inertia {servo.reflected_inertia!r} kg m^2 "
+    )
 
 
 def _joint(root: Element, name: str, kind: str, parent: str, child: str) -> Element:
@@ -115,11 +129,13 @@ _TOUCHING: Final = ("visual", "collision")
 """Uses of a shape. The box of a tibia is only visible: its edges would touch beside the ball."""
 
 
-def _box(link: Element, center: Iterable[float], body: Body, kinds: Iterable[str]) -> None:
+def _box(
+    link: Element, center: Iterable[float], size: Iterable[float], kinds: Iterable[str]
+) -> None:
     for kind in kinds:
         shape = _add(link, kind)
         _add(shape, "origin", xyz=_numbers(center))
-        _add(_add(shape, "geometry"), "box", size=_numbers(body.size))
+        _add(_add(shape, "geometry"), "box", size=_numbers(size))
 
 
 def _numbers(values: Iterable[float]) -> str:

@@ -25,6 +25,7 @@ typedef struct {
 
 static const condition_numbers conditions[] = {ROBOT_CONDITIONS};
 static const plant_leg legs[APNC_LEGS] = {ROBOT_LEGS};
+static const plant_body bare_trunk = ROBOT_TRUNK; /* without payload and error */
 
 /* What is saved beside the values; the bytes of a plant follow it, at a multiple of 64. */
 typedef struct {
@@ -95,15 +96,24 @@ static plant_sensor sensor_of(const plant_parameters *p) {
                           p->sensor_component == PLANT_LOAD_COMPONENT_NORM};
 }
 
+/* Radius of the largest foot. */
+static double largest_foot(const plant_parameters *p) {
+    double largest = 0.0;
+    for (int leg = 0; leg < APNC_LEGS; leg++) {
+        const double own = legs[leg].foot_radius;
+        largest = fmax(largest, isnan(own) ? p->contact_foot_radius : own);
+    }
+    return largest;
+}
+
 /* The trunk with its payload and the error of its centre of mass. */
 static plant_body trunk_of(const plant_parameters *p) {
-    static const double size[3] = ROBOT_TRUNK_SIZE, center[3] = ROBOT_TRUNK_CENTER;
-    static const double com[3] = ROBOT_TRUNK_COM, box[3] = ROBOT_PAYLOAD_SIZE;
+    static const double edges[3] = ROBOT_TRUNK_EDGES, center[3] = ROBOT_TRUNK_CENTER;
+    static const double box[3] = ROBOT_PAYLOAD_SIZE;
     const double off = plant_side_offset((uint64_t)p->seed, ROBOT_COM_SIDE_OFFSET);
-    const double own[3] = {com[0], com[1] + off, com[2]};
-    const double top[3] = {center[0], center[1], center[2] + (size[2] + box[2]) / 2.0};
-    plant_body trunk, payload;
-    plant_box(ROBOT_TRUNK_MASS, size, own, &trunk);
+    const double top[3] = {center[0], center[1], center[2] + (edges[2] + box[2]) / 2.0};
+    plant_body payload, trunk = bare_trunk;
+    trunk.com[1] += off;
     plant_box(p->payload + condition_of(p)->payload, box, top, &payload);
     plant_join(&trunk, &payload, &trunk);
     return trunk;
@@ -116,7 +126,7 @@ static plant_robot robot_of(const plant_parameters *p) {
         .weight = ROBOT_WEIGHT,
         .trunk = trunk_of(p),
         .trunk_center = ROBOT_TRUNK_CENTER,
-        .trunk_size = ROBOT_TRUNK_SIZE,
+        .trunk_size = ROBOT_TRUNK_EDGES,
         .servo = servo_of(p),
         .contact = contact_of(p),
         .sensor = sensor_of(p),
@@ -141,12 +151,12 @@ static apnc_status prepare_site(apnc_instance *instance) {
                                p->roughness * ROBOT_FIELD_STEP,
                                diameters[0],
                                diameters[1],
-                               p->contact_foot_radius,
+                               largest_foot(p),
                                ROBOT_FIELD_SINK_IN};
     const int rough = p->roughness > 0.0;
     plant_site *site = instance->own;
     if (site && site->roughness == p->roughness && site->slope == p->slope &&
-        (!rough || (site->seed == p->seed && site->foot_radius == p->contact_foot_radius)))
+        (!rough || (site->seed == p->seed && site->foot_radius == field.foot_radius)))
         return APNC_OK;
     apnc_model_leave(instance);
     const size_t reals = rough ? (size_t)plant_field_reals(&field) : 0;
@@ -159,7 +169,7 @@ static apnc_status prepare_site(apnc_instance *instance) {
         {rough ? PLANT_OBSTACLES : PLANT_PLANE, 1, p->slope, field.height, numbers, places, NULL},
         p->roughness,
         p->slope,
-        p->contact_foot_radius,
+        field.foot_radius,
         p->seed};
     if (rough) site->ground.contacts = plant_field_fill(&field, numbers, places);
     instance->own = site;
@@ -176,19 +186,11 @@ static void apply_condition(const plant_parameters *p, plant_run *run, void *pla
     run->condition = p->condition;
 }
 
-/* The trunk as it was built. */
-static plant_body bare_trunk(void) {
-    static const double size[3] = ROBOT_TRUNK_SIZE, com[3] = ROBOT_TRUNK_COM;
-    plant_body trunk;
-    plant_box(ROBOT_TRUNK_MASS, size, com, &trunk);
-    return trunk;
-}
-
 /* Refuse an integration step that is too long for the robot with the present parameters. */
 static apnc_status refuse_step(apnc_instance *instance) {
     const plant_parameters *p = &((const plant_values *)instance->values)->parameters;
     plant_robot robot = robot_of(p);
-    robot.trunk = bare_trunk();
+    robot.trunk = bare_trunk;
     const double longest = plant_longest_step(&robot);
     if (p->step <= longest) return APNC_OK;
     return apnc_report(instance, APNC_ERROR, APNC_LOG_ERROR,
@@ -287,10 +289,8 @@ static apnc_status note_hurry(apnc_instance *instance, double duration) {
 static void tune(apnc_instance *instance) {
     const plant_parameters *p = &((const plant_values *)instance->values)->parameters;
     plant_run *run = instance->state;
-    const plant_servo servo = servo_of(p);
-    const plant_contact contact = contact_of(p);
-    const plant_sensor sensor = sensor_of(p);
-    plant_tune(plant_in(run), 0, &servo, &contact, &sensor);
+    const plant_robot robot = robot_of(p);
+    plant_tune(plant_in(run), 0, &robot);
     /* a trunk is held where it is when that begins */
     if (run->condition != p->condition) apply_condition(p, run, plant_in(run));
     instance->run->tuned = 0;

@@ -5,7 +5,6 @@
 #include "vectors.h"
 
 typedef struct {
-    B radius;    /* [m] of the foot ball */
     B stiffness; /* [N/m] k */
     B damping;   /* [N s/m] c */
     B per_depth; /* [1/m] one over the depth d_c over which the damping sets in */

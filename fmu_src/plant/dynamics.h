@@ -92,11 +92,11 @@ typedef struct {
     V load;    /* [N] sum of the normal forces */
 } push;
 
-INL void add_push(const plant_parts *p, const leg_motion *m, v3 normal, V depth, B stopping,
-                  push *sum) {
+INL void add_push(const plant_parts *p, const leg_numbers *n, const leg_motion *m, v3 normal,
+                  V depth, B stopping, push *sum) {
     const contact_numbers *c = &p->robot->contact;
     V press;
-    const v3 lever = v_sub(m->tibia, v_scale(wide(c->radius), normal));
+    const v3 lever = v_sub(m->tibia, v_scale(n->radius, normal));
     const v3 velocity = v_add(m->third.v, v_cross(m->third.w, lever));
     const v3 force = contact_force(c, normal, depth, velocity, stopping, &press);
     sum->force = v_add(sum->force, force);
@@ -106,9 +106,10 @@ INL void add_push(const plant_parts *p, const leg_motion *m, v3 normal, V depth,
 
 /* Contacts with a ground that is not a plane: its touch function is called lane by lane. */
 INL push push_uneven(const plant_parts *p, const plant_ground *const *grounds,
-                     const trunk_motion *t, const leg_motion *m, int32_t group, B stopping) {
+                     const trunk_motion *t, const leg_numbers *n, const leg_motion *m,
+                     int32_t group, B stopping) {
     const V zero = v_all(0.0);
-    const V radius = wide(p->robot->contact.radius), top = wide(p->robot->top);
+    const V radius = n->radius, top = wide(p->robot->top);
     const v3 at = v_add(wide3(t->at), v_turn_back(&t->ground, m->foot));
     push sum = {{zero, zero, zero}, {zero, zero, zero}, zero};
     int32_t count[PLANT_WIDTH], most = 0;
@@ -139,7 +140,7 @@ INL push push_uneven(const plant_parts *p, const plant_ground *const *grounds,
         }
         const v3 trunk = v_turn(&t->ground, normal);
         const push before = sum;
-        add_push(p, m, about_x(m->c1, -m->s1, trunk), depth, stopping, &sum);
+        add_push(p, n, m, about_x(m->c1, -m->s1, trunk), depth, stopping, &sum);
         /* a lane without this contact keeps its bits */
         const V none = v_all(0.0);
 #define KEEP(x) sum.x = v_select(depth > none, sum.x, before.x)
@@ -156,13 +157,13 @@ INL push push_uneven(const plant_parts *p, const plant_ground *const *grounds,
 }
 
 INL push push_of_ground(const plant_parts *p, const plant_ground *const *grounds,
-                        const trunk_motion *t, const leg_motion *m, int32_t group, B stopping) {
-    if (p->contacts) return push_uneven(p, grounds, t, m, group, stopping);
+                        const trunk_motion *t, const leg_numbers *n, const leg_motion *m,
+                        int32_t group, B stopping) {
+    if (p->contacts) return push_uneven(p, grounds, t, n, m, group, stopping);
     const V zero = v_all(0.0);
     push sum = {{zero, zero, zero}, {zero, zero, zero}, zero};
-    const V depth =
-        wide(p->robot->contact.radius) - (wide(t->height) + v_dot(wide3(t->up), m->foot));
-    add_push(p, m, about_x(m->c1, -m->s1, wide3(t->up)), depth, stopping, &sum);
+    const V depth = n->radius - (wide(t->height) + v_dot(wide3(t->up), m->foot));
+    add_push(p, n, m, about_x(m->c1, -m->s1, wide3(t->up)), depth, stopping, &sum);
     return sum;
 }
 
@@ -173,9 +174,9 @@ enum { SUM_H = 21, SUM_M = 24, SUM_X = 25, SUMS = 31 };
 
 /* Inward pass of a leg: bias forces, composite inertia and elimination of its joints. Its
  * contribution to the trunk's equations is written to `part`. */
-INL void leg_inward(const robot_numbers *robot, const leg_numbers *n, const leg_motion *m,
-                    const V *qd, const V *torque, const push *ground, leg_kept *k, V part[SUMS]) {
-    const V zero = v_all(0.0), rotor = wide(robot->reflected_inertia);
+INL void leg_inward(const leg_numbers *n, const leg_motion *m, const V *qd, const V *torque,
+                    const push *ground, leg_kept *k, V part[SUMS]) {
+    const V zero = v_all(0.0);
     const twist T1 = m->first, T2 = m->second, T3 = m->third;
     const v3 r = n->hip, d = m->femur;
     /* accelerations of the links without those of the coordinates */
@@ -210,17 +211,17 @@ INL void leg_inward(const robot_numbers *robot, const leg_numbers *n, const leg_
     const v_inertia i23 = joined(shifted(i3, d), &i2);
     const v_inertia i123 = joined(shifted(i23, r), &n->link[0]);
     wrench F3 = {{i3.xy, i3.yy, i3.yz}, {i3.h.z, zero, -i3.h.x}};
-    const V M33 = i3.yy + rotor;
+    const V M33 = i3.yy + n->joint[2].rotor;
     F3 = moved(F3, d);
     const V M23 = F3.n.y;
     F3 = moved(F3, r);
     const V M13 = F3.n.x;
     wrench F2 = {{i23.xy, i23.yy, i23.yz}, {i23.h.z, zero, -i23.h.x}};
-    const V M22 = i23.yy + rotor;
+    const V M22 = i23.yy + n->joint[1].rotor;
     F2 = moved(F2, r);
     const V M12 = F2.n.x;
     const wrench F1 = {{i123.xx, i123.xy, i123.xz}, {zero, -i123.h.z, i123.h.y}};
-    const V M11 = i123.xx + rotor;
+    const V M11 = i123.xx + n->joint[0].rotor;
     /* L D L' of the three joints, knee first */
     const V d3 = 1.0 / M33, l32 = M23 * d3, l31 = M13 * d3;
     const V e22 = M22 - l32 * M23, e12 = M12 - l32 * M13, d2 = 1.0 / e22, l21 = e12 * d2;
@@ -401,6 +402,19 @@ INL void trunk_outward(const robot_numbers *n, const trunk_motion *m, const B z[
     s->rolldd = al.x + m->cp * s->pitchd * s->yawd + m->sp * s->yawdd;
 }
 
+/* Add the torques of the joints themselves to those of their servos. */
+INL void add_passive(const plant_parts *p, const leg_numbers *n, const leg_state *s, V torque[3]) {
+    const V has = wide(p->robot->passive);
+    int some = 0;
+    for (int robot = 0; robot < PLANT_ROBOTS_ABREAST; robot++)
+        some |= B_AT(p->robot->passive, robot) > 0.0;
+    if (!some) return;
+    for (int j = 0; j < 3; j++) {
+        const V more = torque[j] + passive_torque(&n->joint[j].passive, s->q[j], s->qd[j]);
+        torque[j] = v_select(has > 0.0, more, torque[j]); /* a robot without keeps its bits */
+    }
+}
+
 /* Accelerations from coordinates, speeds and targets. dt: length of the step that begins [s]; the
  * friction threshold and the work of the servos need it. */
 INL void accelerate(const plant_parts *p, const plant_ground *const *grounds, double dt) {
@@ -412,14 +426,16 @@ INL void accelerate(const plant_parts *p, const plant_ground *const *grounds, do
     trunk_alone(robot, &t, sum);
     for (int32_t g = 0; g < p->groups; g++) {
         leg_state *s = &p->state[g];
-        const leg_motion m = leg_moves(&p->leg[g], s->q, s->qd, w, v);
-        const push ground = push_of_ground(p, grounds, &t, &m, g, stopping);
+        const leg_numbers *n = &p->leg[g];
+        const leg_motion m = leg_moves(n, s->q, s->qd, w, v);
+        const push ground = push_of_ground(p, grounds, &t, n, &m, g, stopping);
         V torque[3], part[SUMS];
         for (int j = 0; j < 3; j++) {
-            torque[j] = servo_torque(&robot->servo, s->target[j] - s->q[j], s->qd[j]);
+            torque[j] = servo_torque(&n->joint[j].servo, s->target[j] - s->q[j], s->qd[j]);
             s->work[j] += v_abs(torque[j] * s->qd[j]) * dt;
         }
-        leg_inward(robot, &p->leg[g], &m, s->qd, torque, &ground, &p->kept[g], part);
+        add_passive(p, n, s, torque);
+        leg_inward(n, &m, s->qd, torque, &ground, &p->kept[g], part);
         add_up(p, g, sum, part, SUMS);
     }
     add_linear_part(sum);

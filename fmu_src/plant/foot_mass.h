@@ -20,7 +20,7 @@ static inline void pushed_foot(const plant_parts *p, const trunk_motion *t, int3
             ground.force = about_x(m.c1, -m.s1, wide3(force));
             ground.moment = v_cross(m.tibia, ground.force);
         }
-        leg_inward(p->robot, &p->leg[g], &m, none, none, &ground, &p->kept[g], part);
+        leg_inward(&p->leg[g], &m, none, none, &ground, &p->kept[g], part);
         add_up(p, g, sum, part, SUMS);
     }
     add_linear_part(sum);

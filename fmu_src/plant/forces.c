@@ -83,16 +83,20 @@ void plant_forces(const plant_robot *robot, const plant_ground *ground, const do
     const trunk_motion t = trunk_moves(&p);
     memset(out, 0, sizeof *out * (size_t)(found - out));
     if (held) suspend(&robot->suspension, held, q, v, out);
-    for (int32_t i = 0; i < joints; i++) {
-        torque[i] = servo_torque(&numbers.servo, target[i] - q[6 + i], v[6 + i]);
-        out[6 + i] += torque[i];
-        work[i] += s_abs(torque[i] * v[6 + i]) * dt;
-    }
     for (int32_t k = 0; k < legs; k++) {
         leg_numbers leg;
-        set_leg(&leg, &robot->leg[k]);
+        set_leg(&leg, robot, k);
+        for (int32_t j = 0; j < 3; j++) {
+            const int32_t i = 3 * k + j;
+            const joint_numbers *joint = &leg.joint[j];
+            torque[i] = servo_torque(&joint->servo, target[i] - q[6 + i], v[6 + i]);
+            work[i] += s_abs(torque[i] * v[6 + i]) * dt;
+            out[6 + i] += torque[i];
+            if (numbers.passive > 0.0)
+                out[6 + i] += passive_torque(&joint->passive, q[6 + i], v[6 + i]);
+        }
         const leg_motion m = leg_moves(&leg, q + 6 + 3 * k, v + 6 + 3 * k, wide3(t.w), wide3(t.v));
-        const push pushed = push_of_ground(&p, &ground, &t, &m, 0, stopping);
+        const push pushed = push_of_ground(&p, &ground, &t, &leg, &m, 0, stopping);
         add_generalized(&leg, &m, &t, &pushed, out, out + 6 + 3 * k);
         write_vector(foot + 3 * k, v_add(wide3(trunk.x), v_turn(&t.turn, m.foot)));
         write_vector(force + 3 * k, v_turn(&t.turn, about_x(m.c1, m.s1, pushed.force)));
@@ -115,7 +119,7 @@ void plant_leg_points(const plant_leg *leg, double abduction, double hip, double
     const V still[3] = {0.0, 0.0, 0.0};
     const v3 zero = {0.0, 0.0, 0.0};
     leg_numbers n;
-    set_leg(&n, leg);
+    set_geometry(&n, leg);
     const V q[3] = {n.sign[0] * abduction, n.sign[1] * hip, n.sign[2] * knee};
     const leg_motion m = leg_moves(&n, q, still, zero, zero);
     const v3 pivot = v_add(n.mount, about_x(m.c1, m.s1, n.hip));

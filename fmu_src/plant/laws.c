@@ -11,6 +11,11 @@ double plant_servo_torque(const plant_servo *servo, double error, double speed) 
     return servo_torque(&n, error, speed);
 }
 
+double plant_joint_torque(const plant_joint *joint, double angle, double speed) {
+    const passive_numbers n = passive_of(joint);
+    return passive_torque(&n, angle, speed);
+}
+
 double plant_contact_force(const plant_contact *contact, const double *normal, double depth,
                            const double *velocity, double stopping, double *force) {
     const contact_numbers n = contact_of(contact);

@@ -19,7 +19,58 @@ static inline v_inertia about_frame(const plant_body *body) {
                        i[5] - m * y * z};
 }
 
-static inline void set_leg(leg_numbers *n, const plant_leg *leg) {
+static inline servo_numbers servo_of(const plant_servo *servo) {
+    return (servo_numbers){servo->stiffness, servo->damping, servo->stall_torque,
+                           1.0 / servo->no_load_speed};
+}
+
+static inline double own_or(double own, double common) { return isnan(own) ? common : own; }
+
+/* The servo of a joint. */
+static inline plant_servo servo_at(const plant_joint *joint, const plant_servo *common) {
+    plant_servo servo = *common;
+    servo.stiffness = own_or(joint->stiffness, common->stiffness);
+    servo.damping = own_or(joint->damping, common->damping);
+    servo.stall_torque = own_or(joint->stall_torque, common->stall_torque);
+    servo.no_load_speed = own_or(joint->no_load_speed, common->no_load_speed);
+    servo.reflected_inertia = own_or(joint->reflected_inertia, common->reflected_inertia);
+    return servo;
+}
+
+static inline passive_numbers passive_of(const plant_joint *joint) {
+    return (passive_numbers){joint->joint_damping, joint->dry_friction, 1.0 / joint->friction_speed,
+                             joint->low,           joint->high,         joint->stop_stiffness,
+                             joint->stop_damping};
+}
+
+static inline int has_stops(const passive_numbers *n) {
+    return n->low > -INFINITY || n->high < INFINITY;
+}
+
+static inline int has_passive(const passive_numbers *n) {
+    return n->damping > 0.0 || n->friction > 0.0 || has_stops(n);
+}
+
+static inline double foot_radius(const plant_robot *robot, int32_t leg) {
+    return own_or(robot->leg[leg].foot_radius, robot->contact.foot_radius);
+}
+
+/* The parts of a leg that plant_tune changes. */
+static inline void set_joints(leg_numbers *n, const plant_robot *robot, int32_t leg) {
+    for (int j = 0; j < 3; j++) {
+        const plant_joint *own = &robot->leg[leg].joint[j];
+        const plant_servo servo = servo_at(own, &robot->servo);
+        passive_numbers passive = passive_of(own);
+        if (n->sign[j] < 0.0) { /* the coordinate is minus the joint angle */
+            passive.low = -own->high;
+            passive.high = -own->low;
+        }
+        n->joint[j] = (joint_numbers){servo.reflected_inertia, servo_of(&servo), passive};
+    }
+    n->radius = foot_radius(robot, leg);
+}
+
+static inline void set_geometry(leg_numbers *n, const plant_leg *leg) {
     n->mount = (v3){leg->mount[0], leg->mount[1], leg->mount[2]};
     n->hip = (v3){leg->hip[0], leg->hip[1], leg->hip[2]};
     n->femur = leg->femur;
@@ -33,21 +84,24 @@ static inline void set_leg(leg_numbers *n, const plant_leg *leg) {
     for (int i = 0; i < 3; i++) n->link[i] = about_frame(&leg->link[i]);
 }
 
-static inline servo_numbers servo_of(const plant_servo *servo) {
-    return (servo_numbers){servo->stiffness, servo->damping, servo->stall_torque,
-                           1.0 / servo->no_load_speed};
+static inline void set_leg(leg_numbers *n, const plant_robot *robot, int32_t leg) {
+    set_geometry(n, &robot->leg[leg]);
+    set_joints(n, robot, leg);
 }
 
-static inline void set_servo(robot_numbers *n, const plant_servo *servo) {
-    n->servo = servo_of(servo);
-    n->reflected_inertia = servo->reflected_inertia;
-    n->slew_rate = servo->slew_rate;
+static inline void set_servo(robot_numbers *n, const plant_robot *robot) {
+    n->slew_rate = robot->servo.slew_rate;
+    n->passive = 0.0;
+    for (int32_t leg = 0; leg < robot->legs; leg++)
+        for (int j = 0; j < 3; j++) {
+            const passive_numbers passive = passive_of(&robot->leg[leg].joint[j]);
+            if (has_passive(&passive)) n->passive = 1.0;
+        }
 }
 
 static inline contact_numbers contact_of(const plant_contact *contact) {
-    return (contact_numbers){contact->foot_radius, contact->stiffness,
-                             contact->damping,     1.0 / contact->damping_depth,
-                             contact->friction,    contact->friction_speed};
+    return (contact_numbers){contact->stiffness, contact->damping, 1.0 / contact->damping_depth,
+                             contact->friction, contact->friction_speed};
 }
 
 static inline void set_sensor(robot_numbers *n, const plant_sensor *sensor) {
@@ -74,7 +128,7 @@ static inline void set_robot(robot_numbers *n, const plant_robot *robot,
                            trunk.xz, trunk.yz};
     n->gravity = robot->gravity;
     n->half_weight = robot->weight / 2.0;
-    set_servo(n, &robot->servo);
+    set_servo(n, robot);
     n->contact = contact_of(&robot->contact);
     set_sensor(n, &robot->sensor);
     n->hold[0] = s->stiffness;

@@ -229,7 +229,7 @@ void plant_place(void *plant, int32_t lane, const plant_robot *robot, const plan
     memset(p.trunk, 0, sizeof *p.trunk);
     memset(p.state, 0, (size_t)p.groups * sizeof *p.state);
     set_robot(p.robot, robot, ground);
-    for (int32_t leg = 0; leg < p.legs; leg++) set_leg(&p.leg[leg], &robot->leg[leg]);
+    for (int32_t leg = 0; leg < p.legs; leg++) set_leg(&p.leg[leg], robot, leg);
     set_start(&p, coordinates, height);
     p.robot->per_foot_mass = 1.0 / least_foot_mass(&p);
     accelerate(&p, &ground, 0.0);
@@ -242,24 +242,18 @@ void plant_place(void *plant, int32_t lane, const plant_robot *robot, const plan
     h->readings[lane] = 0;
 }
 
-void plant_tune(void *plant, int32_t lane, const plant_servo *servo, const plant_contact *contact,
-                const plant_sensor *sensor) {
+void plant_tune(void *plant, int32_t lane, const plant_robot *robot) {
     plant_header *h = (plant_header *)plant;
     robot_numbers n;
-    set_servo(&n, servo);
-    n.contact = contact_of(contact);
+    set_servo(&n, robot);
+    n.contact = contact_of(&robot->contact);
     const double added = *ROBOT(plant, added, lane);
     n.half_weight = *ROBOT(plant, half_weight, lane);
-    set_sensor(&n, sensor);
+    set_sensor(&n, &robot->sensor);
     n.deviation = s_sqrt(n.noise * n.noise + added * added);
 #define TAKE(field) *ROBOT(plant, field, lane) = n.field
-    TAKE(reflected_inertia);
     TAKE(slew_rate);
-    TAKE(servo.stiffness);
-    TAKE(servo.damping);
-    TAKE(servo.stall);
-    TAKE(servo.per_no_load);
-    TAKE(contact.radius);
+    TAKE(passive);
     TAKE(contact.stiffness);
     TAKE(contact.damping);
     TAKE(contact.per_depth);
@@ -271,8 +265,15 @@ void plant_tune(void *plant, int32_t lane, const plant_servo *servo, const plant
     TAKE(time_constant);
 #undef TAKE
     *ROBOT(plant, share_of, lane) = 0.0;
-    h->latency = servo->latency;
-    h->delay = sensor->delay;
+    for (int32_t place = 0; place < places_of(h); place++) {
+        leg_numbers leg;
+        set_leg(&leg, robot, place < h->legs ? place : 0);
+        for (size_t i = PLACE_OF(leg_numbers, joint); i < NUMBERS_OF(leg_numbers); i++)
+            *of_leg(plant, h->leg, NUMBERS_OF(leg_numbers), i, place, lane) =
+                ((const double *)(const void *)&leg)[i];
+    }
+    h->latency = robot->servo.latency;
+    h->delay = robot->sensor.delay;
 }
 
 void plant_set_conditions(void *plant, int32_t lane, const plant_conditions *conditions) {

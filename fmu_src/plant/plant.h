@@ -32,6 +32,17 @@ typedef struct {
     double inertia[6]; /* [kg m^2] about the centre of mass: xx, yy, zz, xy, xz, yz */
 } plant_body;
 
+/* What a joint has of its own. NaN: as the servo of the robot has it. */
+typedef struct {
+    double stiffness, damping, stall_torque, no_load_speed, reflected_inertia; /* see plant_servo */
+    double joint_damping;  /* [N m s/rad] of the joint itself, apart from its motor */
+    double dry_friction;   /* [N m] of the joint itself */
+    double friction_speed; /* [rad/s] below it dry friction is proportional to the speed */
+    double low, high;      /* [rad] joint angles of its stops; infinite: none */
+    double stop_stiffness; /* [N m/rad] torque per angle beyond a stop */
+    double stop_damping;   /* [N m s/rad] torque per speed there */
+} plant_joint;
+
 /* A leg: abduction about x, hip and knee about y. All vectors are in axes parallel to the trunk's.
  */
 typedef struct {
@@ -42,12 +53,14 @@ typedef struct {
     double femur_angle;     /* [rad] reference pose, back of vertical */
     double tibia_angle;     /* [rad] reference pose, forward of the femur */
     plant_body link[3];     /* hip, femur, tibia; each frame lies at its joint */
+    plant_joint joint[3];   /* abduction, hip, knee */
+    double foot_radius;     /* [m] of the foot ball; NaN: as the contact of the robot has it */
     double abduction_angle; /* [rad] reference pose, the foot to the left */
     int32_t knee_in_front;  /* 1: the knee lies in front of the line from hip to foot, and a
                                positive angle turns the tibia back; 0: the other way */
 } plant_leg;
 
-/* A geared position servo, the same in every joint. */
+/* A geared position servo, that of every joint that has no numbers of its own. */
 typedef struct {
     double stiffness;         /* [N m/rad] torque per position error */
     double damping;           /* [N m s/rad] torque per joint speed */
@@ -58,7 +71,7 @@ typedef struct {
     double slew_rate;         /* [rad/s] fastest change of the command; 0: no limit */
 } plant_servo;
 
-/* A rubber ball on hard ground; all feet are alike. */
+/* A rubber ball on hard ground; feet are alike but for their radius. */
 typedef struct {
     double foot_radius;    /* [m] */
     double stiffness;      /* [N/m] normal force per depth */
@@ -90,8 +103,8 @@ typedef struct {
     double gravity;         /* [m/s^2] downward */
     double weight;          /* [N] without payload; it scales the noise of the sensors */
     plant_body trunk;       /* includes the payload and the seeded error of its centre of mass */
-    double trunk_center[3]; /* [m] middle of the box; a corner on the ground is a fall */
-    double trunk_size[3];   /* [m] edges of that box */
+    double trunk_center[3]; /* [m] middle of its outline; a corner of it on the ground is a fall */
+    double trunk_size[3];   /* [m] edges of the outline */
     plant_servo servo;      /* */
     plant_contact contact;  /* */
     plant_sensor sensor;    /* */
@@ -200,9 +213,9 @@ int32_t plant_intact(const void *memory, int32_t kind, int32_t level, int32_t le
 void plant_place(void *plant, int32_t lane, const plant_robot *robot, const plant_ground *ground,
                  uint64_t seed, const double *coordinates, double height, double Ts);
 
-/* Change servo, contact and sensor of a lane; geometry and masses stay. */
-void plant_tune(void *plant, int32_t lane, const plant_servo *servo, const plant_contact *contact,
-                const plant_sensor *sensor);
+/* Change servo, contact, sensor, joints and radii of the feet of a lane to those of a robot;
+ * geometry and masses stay. */
+void plant_tune(void *plant, int32_t lane, const plant_robot *robot);
 
 /* Set the conditions that hold from now on. */
 void plant_set_conditions(void *plant, int32_t lane, const plant_conditions *conditions);
@@ -259,9 +272,10 @@ double plant_own_step(const plant_robot *robot);
  * of every leg, of which hip and knee turn about +y; target: commanded
  * tree coordinates of the joints, 3 legs numbers; held: six coordinates the trunk is held at, or
  * NULL; stopping: length of the step over foot mass [s/kg]; work: [J] per joint, grows by
- * |torque speed| dt; out: generalized forces (6 + 3 legs), then torques in tree coordinates, feet
- * and forces on them in the world frame (3 legs each), sums of the normal forces (legs), and room
- * for the contact points of a foot (4 numbers for each of the ground's `contacts`). */
+ * |torque speed| dt; out: generalized forces (6 + 3 legs), then torques of the servos in tree
+ * coordinates, feet and forces on them in the world frame (3 legs each), sums of the normal forces
+ * (legs), and room for the contact points of a foot (4 numbers for each of the ground's
+ * `contacts`). */
 void plant_forces(const plant_robot *robot, const plant_ground *ground, const double *q,
                   const double *v, const double *target, const double *held, double stopping,
                   double dt, double *work, double *out);
@@ -278,6 +292,10 @@ void plant_leg_points(const plant_leg *leg, double abduction, double hip, double
 
 /* Torque of a servo [N m] at a position error [rad] and a joint speed [rad/s]. */
 double plant_servo_torque(const plant_servo *servo, double error, double speed);
+
+/* Torque of a joint apart from its servo [N m], of friction, damping and stops, at a joint angle
+ * [rad] and speed [rad/s]. */
+double plant_joint_torque(const plant_joint *joint, double angle, double speed);
 
 /* Force of the ground on a foot (3) and its normal part [N].
  *

@@ -27,6 +27,7 @@
 #define plant_history              PLANT_NAME(plant_history)
 #define plant_intact               PLANT_NAME(plant_intact)
 #define plant_join                 PLANT_NAME(plant_join)
+#define plant_joint_torque         PLANT_NAME(plant_joint_torque)
 #define plant_kernel_legs          PLANT_NAME(plant_kernel_legs)
 #define plant_kernel_legs_avx2     PLANT_NAME(plant_kernel_legs_avx2)
 #define plant_kernel_robots        PLANT_NAME(plant_kernel_robots)

@@ -16,10 +16,9 @@ typedef struct {
     b_inertia trunk;         /* trunk, about its reference point, in its axes */
     B gravity;               /* [m/s^2] downward */
     B half_weight;           /* [N] scales the noise of the sensors */
-    B reflected_inertia;     /* [kg m^2] at every joint */
     B slew_rate;             /* [rad/s] fastest change of a command; 0: no limit */
-    servo_numbers servo;     /* */
     contact_numbers contact; /* */
+    B passive;               /* 1: a joint has friction, damping or stops */
     B per_foot_mass;         /* [1/kg] one over the apparent mass of a foot along the ground */
     B time_constant;         /* [s] of the low-pass of the sensors; 0: none */
     B share;         /* [1] share of the new value in the low-pass for a tick of `share_of` */
@@ -34,16 +33,25 @@ typedef struct {
     b3 box_center, box_half; /* [m] the box whose corners tell a fall */
 } robot_numbers;
 
+/* Numbers of a joint. */
+typedef struct {
+    V rotor; /* [kg m^2] reflected inertia */
+    servo_numbers servo;
+    passive_numbers passive;
+} joint_numbers;
+
 /* Numbers of a leg. */
 typedef struct {
-    v3 mount;          /* [m] abduction joint in the trunk */
-    v3 hip;            /* [m] from the abduction axis to the hip axis */
-    V femur, tibia;    /* [m] lengths */
-    V femur_angle;     /* [rad] reference pose */
-    V tibia_angle;     /* [rad] */
-    V abduction_angle; /* [rad] */
-    V sign[3];         /* coordinate per joint angle: 1 or -1 */
-    v_inertia link[3]; /* links, about their joints, in their axes */
+    v3 mount;               /* [m] abduction joint in the trunk */
+    v3 hip;                 /* [m] from the abduction axis to the hip axis */
+    V femur, tibia;         /* [m] lengths */
+    V femur_angle;          /* [rad] reference pose */
+    V tibia_angle;          /* [rad] */
+    V abduction_angle;      /* [rad] */
+    V sign[3];              /* coordinate per joint angle: 1 or -1 */
+    v_inertia link[3];      /* links, about their joints, in their axes */
+    joint_numbers joint[3]; /* abduction, hip, knee; from here on plant_tune changes it */
+    V radius;               /* [m] of the foot ball */
 } leg_numbers;
 
 /* State of the trunk. */

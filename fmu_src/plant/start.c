@@ -1,8 +1,7 @@
 /* Start coordinates and mass of the trunk, which plant_place needs. */
 #include <math.h>
 
-#include "lanes.h"
-#include "plant.h"
+#include "numbers.h"
 
 #define START_DEEPEST 1e6 /* [m] depth to which the ground is searched */
 
@@ -80,12 +79,12 @@ double plant_rest_height(const plant_ground *ground, double x, double y, double 
 
 void plant_start(const plant_robot *robot, const plant_ground *ground, const double *angles,
                  double clearance, double *found, double *coordinates) {
-    const double radius = robot->contact.foot_radius;
     double height = -INFINITY, sine, cosine;
     for (int32_t leg = 0; leg < robot->legs; leg++) {
         double points[9];
         plant_leg_points(&robot->leg[leg], angles[0], angles[1], angles[2], points);
         const double *foot = points + 6;
+        const double radius = foot_radius(robot, leg);
         const double above = plant_rest_height(ground, foot[0], foot[1], radius, found) - foot[2];
         if (above > height) height = above;
         for (int i = 0; i < 3; i++) coordinates[6 + 3 * leg + i] = angles[i];

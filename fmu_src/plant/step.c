@@ -18,7 +18,7 @@ static plant_parts posed(step_room *room, const plant_robot *robot) {
     memset(&room->trunk, 0, sizeof room->trunk);
     memset(room->state, 0, sizeof room->state);
     set_robot(&room->robot, robot, &level);
-    for (int32_t leg = 0; leg < robot->legs; leg++) set_leg(&room->leg[leg], &robot->leg[leg]);
+    for (int32_t leg = 0; leg < robot->legs; leg++) set_leg(&room->leg[leg], robot, leg);
     p.robot = &room->robot;
     p.leg = room->leg;
     p.trunk = &room->trunk;

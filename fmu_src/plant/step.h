@@ -2,10 +2,11 @@
  * derivation.
  *
  * The robot stands in its reference pose with all feet on a level plane. All that is stiff acts at
- * once: every servo with its stiffness and damping, every foot with its stiffness and its full
- * damping. M is the mass matrix, K and D are the matrices of these stiffnesses and dampings.
- * Velocity Verlet, which computes forces with the speed of half a step before, is stable with a
- * step h if and only if 4 M - 2 h D - h^2 K is positive definite. */
+ * once: every servo with its stiffness and damping, every joint with its friction, its damping and
+ * the springs of its stops, every foot with its stiffness and its full damping. M is the mass
+ * matrix, K and D are the matrices of these stiffnesses and dampings. Velocity Verlet, which
+ * computes forces with the speed of half a step before, is stable with a step h if and only if 4 M
+ * - 2 h D - h^2 K is positive definite. */
 #ifndef PLANT_STEP_H
 #define PLANT_STEP_H
 
@@ -42,8 +43,7 @@ static inline void step_response(const plant_parts *p, const trunk_motion *t, co
         const v3 force = about_x(m.c1, -m.s1, v_scale(forces[STEP_LAWS * g], up));
         const push ground = {force, v_cross(m.tibia, force), 0.0};
         V part[SUMS];
-        leg_inward(p->robot, &p->leg[g], &m, none, forces + STEP_LAWS * g + 1, &ground, &p->kept[g],
-                   part);
+        leg_inward(&p->leg[g], &m, none, forces + STEP_LAWS * g + 1, &ground, &p->kept[g], part);
         add_up(p, g, sum, part, SUMS);
     }
     add_linear_part(sum);
@@ -60,15 +60,30 @@ static inline void step_response(const plant_parts *p, const trunk_motion *t, co
     }
 }
 
+/* The spring and the damper of a joint. */
+static inline step_law joint_law(const joint_numbers *joint) {
+    const servo_numbers *servo = &joint->servo;
+    const passive_numbers *passive = &joint->passive;
+    /* a servo at the limit of its voltage is a damper */
+    step_law law = {servo->stiffness, s_max(servo->damping, servo->stall * servo->per_no_load)};
+    law.damping += passive->damping;
+    if (passive->friction > 0.0) law.damping += passive->friction * passive->per_slow;
+    if (has_stops(passive)) {
+        law.stiffness += passive->stop_stiffness;
+        law.damping += passive->stop_damping;
+    }
+    return law;
+}
+
 /* Longest stable step [s] with springs and dampers alone, by power iteration: the motion u that is
  * the first to become unstable has the smallest h with u' (4 M - 2 h D - h^2 K) u = 0. */
 static inline double step_of_springs(const plant_parts *p) {
-    const servo_numbers *servo = &p->robot->servo;
     const contact_numbers *contact = &p->robot->contact;
-    /* a servo at the limit of its voltage is a damper */
-    const step_law joint = {servo->stiffness,
-                            s_max(servo->damping, servo->stall * servo->per_no_load)};
-    const step_law law[STEP_LAWS] = {{contact->stiffness, contact->damping}, joint, joint, joint};
+    step_law law[STEP_LAWS * PLANT_MOST_LEGS];
+    for (int32_t leg = 0; leg < p->legs; leg++) {
+        law[STEP_LAWS * leg] = (step_law){contact->stiffness, contact->damping};
+        for (int j = 0; j < 3; j++) law[STEP_LAWS * leg + 1 + j] = joint_law(&p->leg[leg].joint[j]);
+    }
     const trunk_motion t = trunk_moves(p);
     const int32_t ends = STEP_LAWS * p->legs;
     double force[STEP_LAWS * PLANT_MOST_LEGS], moved[STEP_LAWS * PLANT_MOST_LEGS], h = STEP_USUAL;
@@ -77,7 +92,7 @@ static inline double step_of_springs(const plant_parts *p) {
         double mass = 0.0, stiffness = 0.0, damping = 0.0, largest = 0.0;
         step_response(p, &t, force, moved);
         for (int32_t i = 0; i < ends; i++) {
-            const step_law *l = &law[i % STEP_LAWS];
+            const step_law *l = &law[i];
             mass += force[i] * moved[i];
             stiffness += l->stiffness * moved[i] * moved[i];
             damping += l->damping * moved[i] * moved[i];
@@ -86,7 +101,7 @@ static inline double step_of_springs(const plant_parts *p) {
         damping /= mass;
         h = 4.0 / (damping + s_sqrt(damping * damping + 4.0 * stiffness));
         for (int32_t i = 0; i < ends; i++) {
-            const step_law *l = &law[i % STEP_LAWS];
+            const step_law *l = &law[i];
             force[i] = (2.0 * l->damping + h * l->stiffness) * moved[i];
             largest = s_max(largest, s_abs(force[i]));
         }

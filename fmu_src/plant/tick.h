@@ -105,9 +105,10 @@ INL void measure(const plant_parts *p, const plant_ground *const *grounds, const
     for (int32_t g = 0; g < p->groups; g++) {
         leg_state *s = &p->state[g];
         const leg_motion m = leg_moves(&p->leg[g], s->q, s->qd, w, v);
-        const push ground = push_of_ground(p, grounds, t, &m, g, stopping);
+        const push ground = push_of_ground(p, grounds, t, &p->leg[g], &m, g, stopping);
         for (int j = 0; j < 3; j++)
-            s->torque[j] = servo_torque(&p->robot->servo, s->target[j] - s->q[j], s->qd[j]);
+            s->torque[j] =
+                servo_torque(&p->leg[g].joint[j].servo, s->target[j] - s->q[j], s->qd[j]);
         s->foot = v_add(x, v_turn(&t->turn, m.foot));
         s->force = v_turn(&t->turn, about_x(m.c1, m.s1, ground.force));
         s->load = ground.load;

@@ -42,7 +42,7 @@ class SpringTrunk:
         self._stance = stance_of(robot, side_offset(robot, seed))
         self._sensor = LoadSensor(robot.sensor, self.legs, robot.weight, seed)
         self._kinematics, self._substeps = Kinematics(robot), substeps
-        trunk = robot.trunk.inertia().diagonal()[[1, 0]]
+        trunk = robot.trunk.inertia_tensor().diagonal()[[1, 0]]
         hung = sum(leg.mass * np.square(leg.mount[:2]) for leg in robot.legs)
         self._inertia = np.diag([robot.mass, *(trunk + hung)])
         still = np.zeros(len(self.legs))

@@ -43,16 +43,16 @@ def test_payload_sits_on_the_trunk() -> None:
     np.testing.assert_allclose(loaded.com, expected)
     plain = trunk.loaded(0.001, 0.0)
     np.testing.assert_allclose(plain.com, own)
-    np.testing.assert_allclose(plain.inertia, trunk.inertia())
+    np.testing.assert_allclose(plain.inertia, trunk.inertia_tensor())
 
 
 def test_two_halves_of_a_box_are_the_box() -> None:
-    half = Body(1.0, (0.1, 0.2, 0.3), (0.0, 0.0, 0.0)).inertia()
+    half = Body(1.0, (0.1, 0.2, 0.3), (0.0, 0.0, 0.0)).inertia_tensor()
     left = MassProperties(1.0, np.array([0.05, 0.0, 0.0]), half)
     right = MassProperties(1.0, np.array([0.15, 0.0, 0.0]), half)
     whole = left.joined(right)
     np.testing.assert_allclose(whole.com, [0.1, 0.0, 0.0])
-    expected = Body(2.0, (0.2, 0.2, 0.3), (0.0, 0.0, 0.0)).inertia()
+    expected = Body(2.0, (0.2, 0.2, 0.3), (0.0, 0.0, 0.0)).inertia_tensor()
     np.testing.assert_allclose(whole.inertia, expected)
 
 

@@ -40,6 +40,63 @@ def test_torque_speed_curve(error: float, speed: float, expected: float) -> None
     assert lib.plant_servo_torque(servo, error, speed) == pytest.approx(expected)
 
 
+JOINT = {
+    "joint_damping": 0.2, "dry_friction": 0.5, "friction_speed": 0.1, "low": -0.3, "high": 0.4,
+    "stop_stiffness": 100.0, "stop_damping": 2.0,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("angle", "speed", "expected"),
+    [
+        (0.0, 0.0, 0.0),
+        (0.0, 1.0, -0.2 - 0.5),
+        (0.0, -2.0, 0.4 + 0.5),
+        (0.0, 0.05, -0.01 - 0.25),
+        (0.4, 1.0, -0.7),  # at the stop, not beyond it
+        (0.45, 0.0, -5.0),
+        (0.45, 1.0, -0.7 - 5.0 - 2.0),
+        (0.45, -1.0, 0.7 - 5.0 + 2.0),
+        (0.4025, 1.0, -0.7 - 0.25 - 1.0),  # half way into where damping sets in
+        (0.45, -5.0, 1.5),  # it does not pull
+        (-0.35, 0.0, 5.0),
+        (-0.35, -1.0, 0.7 + 5.0 + 2.0),
+        (-0.35, 5.0, -1.5),
+    ],
+)
+def test_a_joint_is_damped_rubs_and_stops(angle: float, speed: float, expected: float) -> None:
+    ffi, lib = library()
+    joint = ffi.new("plant_joint *", JOINT)
+    assert lib.plant_joint_torque(joint, angle, speed) == pytest.approx(expected)
+
+
+@in_both
+@pytest.mark.parametrize(
+    ("stops", "held", "joint"),
+    [
+        ({"femur_range": (0.65, 1.5)}, 0.1, 1), ({"femur_range": (-1.0, 0.85)}, -0.1, 1),
+        ({"tibia_range": (0.5, 1.7)}, 0.09, 2), ({"tibia_range": (1.55, 2.0)}, -0.05, 2),
+    ],
+)  # fmt: skip
+def test_a_joint_stops_at_its_range(
+    kind: Kind, stops: dict[str, tuple[float, float]], held: float, joint: int
+) -> None:
+    legs = tuple(replace(leg, **stops) for leg in ROBOT.legs)
+    plant = kind(replace(ROBOT, legs=legs), options=PlantOptions(gravity=0.0, clearance=1.0))
+    commands = np.zeros((2, 4))
+    commands[joint - 1] = math.copysign(0.5, held)
+    for _ in range(90):
+        plant.advance(*commands, TICK)
+    sample = plant.sample()
+    reached = sample["joint_angle"][:, joint]
+    stop = next(s for s in legs[0].stops[joint] if s * held > 0.0)
+    beyond = (reached - stop) * math.copysign(1.0, held)
+    # there the servo pushes as hard as the stop
+    push = np.abs(sample["joint_torque"][:, joint])
+    np.testing.assert_allclose(beyond * ROBOT.servo.stop[0], push, rtol=1e-3)
+    assert abs(stop - held) < 0.05
+
+
 def weightless(servo: Servo) -> RobotDescription:
     return replace(load_robot("lilibot"), servo=servo)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from full_robot import full_robot
 from loaders import (
     Drake,
     Loaded,
@@ -30,7 +31,7 @@ from apnc_plant.robot.names import plain_names
 from apnc_plant.robot.urdf import robot_urdf
 
 ROBOTS = {robot.name: robot for robot in (load_robot("lilibot"), load_robot("hexapod"))}
-ROBOTS["odd"] = odd_robot()
+ROBOTS |= {"odd": odd_robot(), "full": full_robot()}
 ROBOTS["strange names"] = replace(
     ROBOTS["odd"],
     name="sub/../../x",
@@ -140,6 +141,6 @@ def test_a_robot_stands_on_its_feet(loader: str, robot: str, tmp_path: Path) -> 
 def test_a_robot_that_falls_on_its_back_does_not_sink_in(loader: str, tmp_path: Path) -> None:
     found, trunk = loaded(loader, "lilibot", tmp_path), ROBOTS["lilibot"].trunk
     assert isinstance(found, Simulated)
-    top = trunk.center[2] + trunk.size[2] / 2.0
+    top = trunk.center[2] + trunk.edges[2] / 2.0
     rest = found.rest(top + 0.01, pi)
     assert rest.height == pytest.approx(top, abs=0.003)

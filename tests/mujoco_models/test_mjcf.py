@@ -7,26 +7,33 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from full_robot import full_robot
 from odd_robot import odd_robot
 from scipy.spatial.transform import Rotation
 
 from apnc_plant.kinematics import Kinematics
 from apnc_plant.library import library
 from apnc_plant.numbers import servo_numbers
-from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.robot import RobotDescription, Servo, load_robot
 from apnc_plant.robot.links import links_of
+from apnc_plant.signals import JOINTS
 
 mujoco: Any = pytest.importorskip("mujoco")
 
 from mujoco_models.tree import export_mjcf  # noqa: E402
 
-ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot()]
+ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot(), full_robot()]
 LILIBOT = ROBOTS[0]
 
 
 @pytest.fixture(params=ROBOTS, ids=lambda robot: robot.name)
 def robot(request: pytest.FixtureRequest) -> RobotDescription:
     return request.param
+
+
+def servos_of(robot: RobotDescription) -> list[Servo]:
+    """The servos of all joints, in the order of the model."""
+    return [robot.servo_of(leg, joint) for leg in robot.legs for joint in JOINTS]
 
 
 def loaded(robot: RobotDescription, **options: str) -> Any:
@@ -49,7 +56,13 @@ def test_bodies_have_our_masses_centres_and_inertias(robot: RobotDescription) ->
         np.testing.assert_allclose(inertia, body.inertia, atol=1e-12)
     assert model.body_mass.sum() == pytest.approx(robot.mass, abs=1e-9)
     np.testing.assert_array_equal(model.dof_armature[:6], 0.0)
-    np.testing.assert_array_equal(model.dof_armature[6:], robot.servo.reflected_inertia)
+    servos = servos_of(robot)
+    for found, key in (
+        (model.dof_armature, "reflected_inertia"),
+        (model.dof_damping, "joint_damping"),
+        (model.dof_frictionloss, "dry_friction"),
+    ):
+        np.testing.assert_array_equal(found[6:], [getattr(servo, key) for servo in servos])
 
 
 def test_feet_are_where_ours_are_at_any_pose(robot: RobotDescription) -> None:
@@ -67,24 +80,24 @@ def test_feet_are_where_ours_are_at_any_pose(robot: RobotDescription) -> None:
         for leg, foot in zip(robot.legs, feet, strict=True):
             np.testing.assert_allclose(data.geom(f"{leg.name}_foot").xpos, foot, atol=1e-9)
             np.testing.assert_allclose(data.site(f"{leg.name}_foot").xpos, foot, atol=1e-9)
-            assert model.geom(f"{leg.name}_foot").size[0] == robot.contact.foot_radius
+            assert model.geom(f"{leg.name}_foot").size[0] == robot.foot_radius_of(leg)
 
 
+@pytest.mark.parametrize("robot", [LILIBOT, full_robot()], ids=lambda robot: robot.name)
 @pytest.mark.parametrize("servo", ["position", "dcmotor"])
-def test_a_servo_gives_our_torque(servo: str) -> None:
+def test_a_servo_gives_our_torque(servo: str, robot: RobotDescription) -> None:
     if servo == "dcmotor" and not hasattr(mujoco.mjtGain, "mjGAIN_DCMOTOR"):
         pytest.skip("this MuJoCo has no dcmotor")
-    model = loaded(LILIBOT, servo=servo)
+    model = loaded(robot, servo=servo)
     data, random, seen = mujoco.MjData(model), np.random.default_rng(0), set()
-    ours = LILIBOT.servo
     ffi, lib = library()
-    numbers = ffi.new("plant_servo *", servo_numbers(ours))
     for _ in range(50):
         data.qpos[7:], data.qvel[6:] = random.uniform(-0.3, 0.3, (2, 12))
         data.qvel[6:] *= 20.0
         data.ctrl[:] = random.uniform(-0.3, 0.3, 12)
         mujoco.mj_forward(model, data)
-        for k in range(12):
+        for k, ours in enumerate(servos_of(robot)):
+            numbers = ffi.new("plant_servo *", servo_numbers(ours))
             error, speed = data.ctrl[k] - data.qpos[7 + k], data.qvel[6 + k]
             free = ours.stiffness * error - ours.damping * speed
             expected = lib.plant_servo_torque(numbers, error, speed)
@@ -103,7 +116,7 @@ def test_it_stands_on_its_feet_and_its_sensors_show_its_weight(robot: RobotDescr
     loads = [data.sensor(f"{leg.name}_grf").data[0] for leg in robot.legs]
     assert sum(loads) == pytest.approx(robot.weight, rel=1e-3)
     for leg, load in zip(robot.legs, loads, strict=True):
-        depth = robot.contact.foot_radius - data.geom(f"{leg.name}_foot").xpos[2]
+        depth = robot.foot_radius_of(leg) - data.geom(f"{leg.name}_foot").xpos[2]
         sunk = max(0.0, depth)  # not every leg of the odd robot reaches the ground
         assert sunk == pytest.approx(load / robot.contact.stiffness, rel=0.01, abs=1e-7)
 
@@ -126,8 +139,10 @@ def test_stand_is_the_reference_pose_with_a_foot_on_the_ground(robot: RobotDescr
     np.testing.assert_array_equal(data.qpos[7:], 0.0)
     np.testing.assert_array_equal(data.ctrl, 0.0)
     mujoco.mj_kinematics(model, data)
-    lowest = min(data.geom(f"{leg.name}_foot").xpos[2] for leg in robot.legs)
-    assert lowest == pytest.approx(robot.contact.foot_radius, abs=1e-9)
+    lowest = min(
+        data.geom(f"{leg.name}_foot").xpos[2] - robot.foot_radius_of(leg) for leg in robot.legs
+    )
+    assert lowest == pytest.approx(0.0, abs=1e-9)
 
 
 def test_it_stands_on_what_is_in_the_scene_as_on_the_ground(robot: RobotDescription) -> None:
@@ -141,7 +156,7 @@ def test_it_stands_on_what_is_in_the_scene_as_on_the_ground(robot: RobotDescript
     assert loads.sum() == pytest.approx(robot.weight, rel=1e-3)
     assert all(model.geom("slab").id in contact.geom for contact in data.contact)
     for leg, load in zip(robot.legs, loads, strict=True):
-        depth = robot.contact.foot_radius + height - data.geom(f"{leg.name}_foot").xpos[2]
+        depth = robot.foot_radius_of(leg) + height - data.geom(f"{leg.name}_foot").xpos[2]
         sunk = max(0.0, depth)
         assert sunk == pytest.approx(load / robot.contact.stiffness, rel=0.01, abs=1e-7)
 
@@ -156,11 +171,14 @@ def test_no_part_of_it_touches_another(robot: RobotDescription) -> None:
         assert data.ncon == 0
 
 
-def test_limits_are_those_of_the_servo_and_a_full_turn(robot: RobotDescription) -> None:
-    model, stall = loaded(robot), robot.servo.stall_torque
+def test_limits_are_those_of_servos_and_stops_or_a_full_turn(robot: RobotDescription) -> None:
+    model = loaded(robot)
+    stalls = [(-servo.stall_torque, servo.stall_torque) for servo in servos_of(robot)]
+    stops = np.array([leg.stops for leg in robot.legs]).reshape(-1, 2)
+    stops = np.where(np.isfinite(stops), stops, [-np.pi, np.pi])
     np.testing.assert_array_equal(model.jnt_limited[1:], 1)
-    np.testing.assert_array_equal(model.jnt_range[1:], [[-np.pi, np.pi]] * model.nu)
-    np.testing.assert_array_equal(model.jnt_actfrcrange[1:], [[-stall, stall]] * model.nu)
+    np.testing.assert_array_equal(model.jnt_range[1:], stops)
+    np.testing.assert_array_equal(model.jnt_actfrcrange[1:], stalls)
 
 
 def test_an_unknown_servo_is_named() -> None:

@@ -75,6 +75,49 @@ def random_body(random: np.random.Generator, mass: float, size: float) -> Fields
     }
 
 
+PLAIN_JOINT = {
+    **dict.fromkeys(
+        ("stiffness", "damping", "stall_torque", "no_load_speed", "reflected_inertia"), math.nan
+    ),
+    "friction_speed": 1.0,
+    "low": -math.inf,
+    "high": math.inf,
+}
+"""A joint with nothing of its own, as ``plant_joint``."""
+
+PLAIN_LEG = {"joint": [PLAIN_JOINT] * 3, "foot_radius": math.nan}
+"""What every leg without numbers of its own has, of ``plant_leg``."""
+
+
+def random_joint(random: np.random.Generator) -> Fields:
+    """A joint that is like no other: its servo, damping, friction and stops."""
+    return {
+        "stiffness": random.uniform(20.0, 40.0),
+        "damping": random.uniform(0.3, 0.8),
+        "stall_torque": random.uniform(3.0, 5.0),
+        "no_load_speed": random.uniform(4.0, 8.0),
+        "reflected_inertia": random.uniform(0.004, 0.01),
+        "joint_damping": random.uniform(0.05, 0.2),
+        "dry_friction": random.uniform(0.05, 0.3),
+        "friction_speed": random.uniform(0.1, 1.0),
+        "low": random.uniform(-0.6, -0.01),
+        "high": random.uniform(0.01, 0.6),
+        "stop_stiffness": random.uniform(100.0, 200.0),
+        "stop_damping": random.uniform(0.3, 0.8),
+    }
+
+
+def with_joints(fields: Fields, seed: int) -> dict[str, Any]:
+    """A copy of a robot, every joint of which is like no other, and every foot."""
+    random = np.random.default_rng(seed)
+    legs = [
+        {**leg, "joint": [random_joint(random) for _ in range(3)],
+         "foot_radius": random.uniform(0.01, 0.02)}
+        for leg in fields["leg"]
+    ]  # fmt: skip
+    return changed(fields, leg=legs)
+
+
 def _random_leg(random: np.random.Generator) -> Fields:
     own = np.random.default_rng(random.bit_generator.state["state"]["state"] % 2**32)
     return {
@@ -85,6 +128,7 @@ def _random_leg(random: np.random.Generator) -> Fields:
         "femur_angle": random.uniform(-1.0, 1.0),
         "tibia_angle": random.uniform(-1.0, 1.0),
         "link": [random_body(random, random.uniform(0.05, 0.2), 0.06) for _ in range(3)],
+        **PLAIN_LEG,
         "abduction_angle": own.uniform(-0.3, 0.3),
         "knee_in_front": int(own.integers(2)),
     }

@@ -27,8 +27,9 @@ from c_plant import (
     signs,
     trot,
     waves,
+    with_joints,
 )
-from rigid_body import BASE, Expected, RigidBody
+from rigid_body import BASE, Expected, Joints, RigidBody
 
 EXACT: Final = 1e-12
 """Greatest relative difference of two double computations of the same."""
@@ -62,13 +63,18 @@ def random_motion(random: np.random.Generator, legs: int) -> tuple[np.ndarray, n
     return q, random.uniform(-3.0, 3.0, q.size)
 
 
-def accelerations(lib: Any, legs: int = 3, seeds: range = range(3), **sections: Any) -> None:
-    """In the air, at any speeds: bodies, rotors, gravity and servos."""
+def accelerations(lib: Any, legs: int = 3, seeds: range = range(4), **sections: Any) -> None:
+    """In the air, at any speeds: bodies, rotors, gravity, servos and what the joints have."""
     for seed in seeds:
-        robot, random = random_robot(seed, legs, **sections), np.random.default_rng(seed)
+        random = np.random.default_rng(seed)
+        fields = changed(random_fields(np.random.default_rng(seed), legs), **sections)
+        robot = robot_of(with_joints(fields, seed) if seed % 2 else fields)
         plant, body = CPlant(legs, library=lib), RigidBody(robot.at)
         plant.place(robot, plane())
         q, v = random_motion(random, legs)
+        if seed % 2:  # at some stops: moving in, and out faster than the spring pushes
+            high = Joints(robot.at).high
+            q[BASE::2] = high[::2] + random.uniform(-0.001, 0.007, high[::2].size)
         plant.put(q, v)
         step = 2.0**-20
         plant.advance(step, step)
@@ -92,7 +98,8 @@ def _on_ground(lib: Any, ground: Numbers, seed: int, held: bool, norm: int) -> i
     """One step of a robot that moves on a ground; the feet that touched it."""
     legs, step, random = 5, 1 / 500, np.random.default_rng(seed)
     sensor = QUIET | {"norm": norm}
-    robot = random_robot(seed, legs, sensor=sensor)
+    fields = changed(random_fields(np.random.default_rng(seed), legs), sensor=sensor)
+    robot = robot_of(with_joints(fields, seed) if seed % 2 else fields)
     body = RigidBody(robot.at)
     plant = CPlant(legs, library=lib, contacts=ground.at.contacts if ground.at.kind else 0)
     plant.place(robot, ground, clearance=-0.03)
@@ -309,13 +316,18 @@ def tuning(lib: Any) -> None:
     kept = {"reflected_inertia": fields["servo"]["reflected_inertia"], "slew_rate": 2.0}
     ball = {"foot_radius": fields["contact"]["foot_radius"]}  # which the start depends on
     other = changed(other, servo=kept, contact=ball, sensor={"delay": 0.03, "norm": 1})
-    parts = {name: other[name] for name in ("servo", "contact", "sensor")}
+    # the accelerations at the start depend on the rotors, its height on the feet
+    legs_of = [
+        {**leg, "joint": [{**j, "reflected_inertia": math.nan} for j in new["joint"]]}
+        for leg, new in zip(fields["leg"], with_joints(fields, 7)["leg"], strict=True)
+    ]
+    parts = {name: other[name] for name in ("servo", "contact", "sensor")} | {"leg": legs_of}
     plants = [CPlant(legs, library=lib, delay=0.03) for _ in range(2)]
     for plant, robot in zip(plants, (robot_of(fields), robot_of(fields | parts)), strict=True):
         plant.place(robot, plane(), seed=3, clearance=0.001)
         plant.conditions(grf_noise=0.1)
-    structs = [ffi().new(f"plant_{name} *", part) for name, part in parts.items()]
-    lib.plant_tune(plants[0].memory, 0, *structs)
+    tuned = robot_of(fields | parts)  # its arrays must live during the call
+    lib.plant_tune(plants[0].memory, 0, tuned.at)
     for tick in range(20):
         assert same_bits(*(plant.tick(*trot(legs, tick)) for plant in plants))
 
@@ -389,7 +401,8 @@ LATE: Final = {"servo": {"latency": 0.02}, "sensor": {"delay": 0.03}}
 
 def odd_lane(lane: int, legs: int) -> Numbers:
     """A robot like no other."""
-    return robot_of(changed(random_fields(np.random.default_rng(lane), legs), **LATE))
+    fields = changed(random_fields(np.random.default_rng(lane), legs), **LATE)
+    return robot_of(with_joints(fields, lane) if lane % 2 else fields)
 
 
 def side_by_side(
@@ -435,14 +448,18 @@ def longest_step(robot: Any) -> tuple[float, float]:
     4 M - 2 h D - h^2 K is positive definite up to the step h that is found here by bisection.
     """
     body, size = RigidBody(robot), BASE + 3 * robot.legs
-    servo, contact, q = robot.servo, robot.contact, np.zeros(size)
+    servo, contact, q = Joints(robot), robot.contact, np.zeros(size)
     body.move(q, q)
     mass = body.mass_matrix(q)
     up = np.array([body.foot_jacobian(k)[2] for k in range(robot.legs)])
-    joints = np.eye(size)[BASE:]
-    springs = contact.stiffness * up.T @ up + servo.stiffness * joints.T @ joints
-    brake = max(servo.damping, servo.stall_torque / servo.no_load_speed)
-    dampers = contact.damping * up.T @ up + brake * joints.T @ joints
+    stopped = np.isfinite(servo.low) | np.isfinite(servo.high)
+    stiffness = servo.stiffness + np.where(stopped, servo.stop_stiffness, 0.0)
+    brake = np.maximum(servo.damping, servo.stall_torque / servo.no_load_speed)
+    brake += servo.joint_damping + servo.dry_friction / servo.friction_speed
+    brake += np.where(stopped, servo.stop_damping, 0.0)
+    in_air = np.zeros(BASE)
+    springs = contact.stiffness * up.T @ up + np.diag([*in_air, *stiffness])
+    dampers = contact.damping * up.T @ up + np.diag([*in_air, *brake])
     low, high = 1e-9, 1.0
     while high > low * (1.0 + 1e-6):
         h = math.sqrt(low * high)
@@ -457,7 +474,9 @@ def steps(lib: Any) -> None:
     """The longest step, and that a robot that came to lie with a longer one has not fallen."""
     limited_by = set()
     for seed, grip in itertools.product(range(40, 46), (0.01, 10.0)):
-        robot = random_robot(seed, 2 + seed % 5, contact={"friction": grip})
+        random, legs = np.random.default_rng(seed), 2 + seed % 5
+        fields = changed(random_fields(random, legs), contact={"friction": grip})
+        robot = robot_of(with_joints(fields, seed) if seed % 2 else fields)
         springs, friction = longest_step(robot.at)
         expected = min(springs, 1.4 * friction)
         found = lib.plant_longest_step(robot.at)

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from apnc_plant.robot.model import Servo
+from apnc_plant.robot import Servo
 
 Angles = Mapping[str, float]
 """Joint angles by name [rad]."""

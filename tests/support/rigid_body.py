@@ -59,9 +59,8 @@ class RigidBody:
             joint = model.addJoint(joint, kind, here, name)
         model.appendBodyToJoint(joint, _inertia(robot.trunk), here)
         self.feet = [self._add_leg(joint, k) for k in range(robot.legs)]
-        armature = np.full(model.nv, robot.servo.reflected_inertia)
-        armature[:BASE] = 0.0
-        model.armature = armature
+        rotors = Joints(robot).reflected_inertia
+        model.armature = np.concatenate([np.zeros(BASE), rotors])
         self.data = model.createData()
 
     def _add_leg(self, trunk: int, k: int) -> int:
@@ -115,6 +114,49 @@ class RigidBody:
         """Momentum [N s], and angular momentum about the centre of mass [N m s], without rotors."""
         found = pin.computeCentroidalMomentum(self.model, self.data, q, v)
         return np.array(found.linear), np.array(found.angular)
+
+
+class Joints:
+    """The numbers of all joints of a ``plant_robot`` in coordinates of the tree, each (3 legs,).
+
+    The attributes are those of ``plant_joint``, with what a joint has from the robot's servo.
+    """
+
+    def __init__(self, robot: Any) -> None:
+        joints = [robot.leg[k].joint[j] for k in range(robot.legs) for j in range(3)]
+
+        def each(key: str) -> Array:
+            return np.array([getattr(joint, key) for joint in joints])
+
+        for key in ("stiffness", "damping", "stall_torque", "no_load_speed", "reflected_inertia"):
+            own = each(key)
+            setattr(self, key, np.where(np.isnan(own), getattr(robot.servo, key), own))
+        for key in ("joint_damping", "dry_friction", "friction_speed", "stop_stiffness"):
+            setattr(self, key, each(key))
+        self.stop_damping = each("stop_damping")
+        # hip, and knee behind the line from hip to foot: minus the joint angle
+        front = [robot.leg[k].knee_in_front for k in range(robot.legs)]
+        turned = np.array([[False, True, not in_front] for in_front in front]).ravel()
+        low, high = each("low"), each("high")
+        self.low, self.high = np.where(turned, -high, low), np.where(turned, -low, high)
+
+
+def passive_torque(joints: Joints, q: Array, v: Array) -> Array:
+    """Torque of damping, friction and stops of the joints [N m]."""
+    rubbing = joints.dry_friction * np.clip(v / joints.friction_speed, -1.0, 1.0)
+    torque = -joints.joint_damping * v - rubbing
+    for sign, depth in ((1.0, joints.low - q), (-1.0, q - joints.high)):
+        depth = np.maximum(depth, 0.0)
+        onset = np.minimum(1.0, depth / 0.005)
+        press = joints.stop_stiffness * depth - sign * joints.stop_damping * onset * v
+        torque += sign * np.maximum(press, 0.0) * (depth > 0.0)
+    return torque
+
+
+def radius_of(robot: Any, k: int) -> float:
+    """Radius of a foot [m]."""
+    own = robot.leg[k].foot_radius
+    return float(robot.contact.foot_radius if np.isnan(own) else own)
 
 
 def servo_torque(servo: Any, error: Array, speed: Array) -> Array:
@@ -174,16 +216,18 @@ class Expected:
         robot, n = body.robot, body.robot.legs
         self.robot = robot
         body.move(q, v)
-        self.torque = servo_torque(robot.servo, target - q[BASE:], v[BASE:])
-        self.force = np.concatenate([np.zeros(BASE), self.torque])
+        joints = Joints(robot)
+        self.torque = servo_torque(joints, target - q[BASE:], v[BASE:])
+        passive = passive_torque(joints, q[BASE:], v[BASE:])
+        self.force = np.concatenate([np.zeros(BASE), self.torque + passive])
         if held_at is not None:
             self.force[:BASE] += suspension(robot.suspension, held_at, q, v)
         self.foot = np.array([body.foot(k) for k in range(n)])
         self.push, self.load = np.zeros((n, 3)), np.zeros(n)
         tilt = _about_y(-ground.slope)
         found = ffi.new("double[]", 4 * max(1, ground.contacts))
-        radius = robot.contact.foot_radius
         for k in range(n):
+            radius = radius_of(robot, k)
             count = lib.plant_touches(ground, *(tilt.T @ self.foot[k]), radius, found)
             jacobian = body.foot_jacobian(k) if count else np.zeros((6, q.size))
             for c in range(count):

@@ -209,7 +209,7 @@ def test_arm_rotors_and_fixed_parts_keep_mass_and_centre_of_mass(tmp_path: Path)
         turn, d = data.ximat[k].reshape(3, 3), data.xipos[k] - com
         inertia += turn @ np.diag(model.body_inertia[k]) @ turn.T
         inertia += model.body_mass[k] * (d @ d * np.eye(3) - np.outer(d, d))
-    own = np.diag(found.robot.trunk.inertia())
+    own = np.diag(found.robot.trunk.inertia_tensor())
     np.testing.assert_allclose(own, np.diag(inertia), rtol=1e-6)
     told = " ".join(found.dropped)
     assert "arm_yaw is held" in told
@@ -289,7 +289,9 @@ def test_the_mass_of_a_mjcf_is_that_of_its_inertials(tmp_path: Path) -> None:
     path.write_text(mjcf())
     robot = import_robot(path).robot
     assert robot.mass == pytest.approx(9.0 + 4 * 1.7)
-    np.testing.assert_allclose(robot.trunk.inertia(), np.diag([0.06, 0.12, 0.14]), atol=1e-12)
+    np.testing.assert_allclose(
+        robot.trunk.inertia_tensor(), np.diag([0.06, 0.12, 0.14]), atol=1e-12
+    )
     full = [[0.06, 0.001, 0.002], [0.001, 0.12, 0.003], [0.002, 0.003, 0.14]]
     trunk = read_mjcf(read_xml(path), path).parts[0].body
     np.testing.assert_array_equal(trunk.inertia, full)

@@ -21,7 +21,7 @@ def assert_same(found: ImportedRobot, own: RobotDescription) -> None:
         np.testing.assert_allclose(a, b, rtol=1e-9, atol=1e-12)
 
     same(read.mass, own.mass)
-    same(read.trunk.inertia(), own.trunk.inertia())
+    same(read.trunk.inertia_tensor(), own.trunk.inertia_tensor())
     same(read.trunk.com, own.trunk.com)
     same(read.trunk.corners(), own.trunk.corners())
     assert [leg.name for leg in read.legs] == [leg.name for leg in own.legs]
@@ -33,7 +33,7 @@ def assert_same(found: ImportedRobot, own: RobotDescription) -> None:
             link, original = getattr(a, name), getattr(b, name)
             same(link.mass, original.mass)
             same(link.com, original.com)
-            same(link.inertia(), original.inertia())
+            same(link.inertia_tensor(), original.inertia_tensor())
     for name in ("stall_torque", "no_load_speed", "stiffness", "damping", "reflected_inertia"):
         same(getattr(read.servo, name), getattr(own.servo, name))
     same(read.contact.foot_radius, own.contact.foot_radius)

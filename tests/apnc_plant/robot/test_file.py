@@ -29,7 +29,64 @@ def test_lilibot_has_the_published_mass_and_leg_order() -> None:
 def test_box_inertia() -> None:
     trunk = load_robot("lilibot").trunk
     expected = 1.3 / 12 * np.array([0.16**2 + 0.06**2, 0.26**2 + 0.06**2, 0.26**2 + 0.16**2])
-    np.testing.assert_allclose(trunk.inertia(), np.diag(expected))
+    np.testing.assert_allclose(trunk.inertia_tensor(), np.diag(expected))
+
+
+def test_inertia_of_its_own_is_mirrored_with_its_leg(tmp_path: Path) -> None:
+    own = "[leg.femur]\ninertia = [3e-4, 2e-4, 1.5e-4, 1e-5, 2e-5, 3e-5]"
+    robot = load_robot(written(tmp_path, LILIBOT.replace("[leg.femur]", own)))
+    right, left = (leg.mass_properties(leg.femur).inertia for leg in robot.legs[::2])
+    np.testing.assert_array_equal(
+        left, [[3e-4, 1e-5, 2e-5], [1e-5, 2e-4, 3e-5], [2e-5, 3e-5, 1.5e-4]]
+    )
+    np.testing.assert_array_equal(
+        right, [[3e-4, -1e-5, 2e-5], [-1e-5, 2e-4, -3e-5], [2e-5, -3e-5, 1.5e-4]]
+    )
+    tibia = robot.legs[0].mass_properties(robot.legs[0].tibia).inertia
+    assert np.count_nonzero(tibia) == 3
+
+
+def test_an_outline_is_not_the_box_with_the_inertia(tmp_path: Path) -> None:
+    own = "mass = 1.3\noutline = [0.3, 0.2, 0.1]"
+    plain, robot = (
+        load_robot(written(tmp_path, text))
+        for text in (LILIBOT, LILIBOT.replace("mass = 1.3", own))
+    )
+    np.testing.assert_array_equal(robot.trunk.inertia_tensor(), plain.trunk.inertia_tensor())
+    np.testing.assert_allclose(np.ptp(robot.trunk.corners(), axis=0), [0.3, 0.2, 0.1])
+    np.testing.assert_allclose(robot.trunk.corners().mean(axis=0), robot.trunk.center, atol=1e-15)
+    heights = [each.trunk.loaded(0.0, 1.3).com[2] for each in (plain, robot)]
+    assert heights[1] - heights[0] == pytest.approx((0.1 - 0.06) / 2.0 / 2.0)
+
+
+def test_the_servo_of_a_joint_is_that_of_its_leg_its_kind_or_the_robot(tmp_path: Path) -> None:
+    of_kind = "[servo.knee]\nstiffness = 20.0\ndry_friction = 0.1\n\n[contact]"
+    of_leg = 'name = "LF"\nservo = { knee = { stiffness = 30.0 }, hip = { damping = 0.5 } }'
+    text = LILIBOT.replace("[contact]", of_kind).replace('name = "LF"', of_leg)
+    robot = load_robot(written(tmp_path, text))
+    common, lf, lh = robot.servo, robot.legs[2], robot.legs[3]
+    assert robot.servo_of(lh, "abduction") == load_robot("lilibot").servo
+    assert robot.servo_of(lh, "hip") == load_robot("lilibot").servo
+    knees = [robot.servo_of(leg, "knee") for leg in (lh, lf)]
+    assert [(k.stiffness, k.dry_friction, k.damping) for k in knees] == [
+        (20.0, 0.1, common.damping), (30.0, 0.1, common.damping)
+    ]  # fmt: skip
+    assert robot.servo_of(lf, "hip").damping == 0.5
+
+
+def test_stops_are_angles_of_the_links(tmp_path: Path) -> None:
+    own = "[leg]\nabduction_range = [-10, 20]\nfemur_range = [30, 60]\ntibia_range = [80, 100]"
+    robot = load_robot(written(tmp_path, LILIBOT.replace("[leg]", own)))
+    right, left = (np.degrees(leg.stops) for leg in robot.legs[::2])
+    np.testing.assert_allclose(left, [[-10, 20], [43 - 60, 43 - 30], [80 - 92, 100 - 92]])
+    np.testing.assert_allclose(right, [[-20, 10], *left[1:]])
+    assert np.isinf(load_robot("lilibot").legs[0].stops).all()
+
+
+def test_the_stall_torque_bends_a_stop_by_one_degree_unless_the_file_says_more() -> None:
+    servo = load_robot("lilibot").servo
+    assert servo.stop == (pytest.approx(servo.stall_torque * 180.0 / math.pi), servo.damping)
+    assert replace(servo, stop_stiffness=5.0, stop_damping=0.0).stop == (5.0, 0.0)
 
 
 def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
@@ -69,6 +126,52 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
             "tibia_angle = 92.0",
             'tibia_angle = 92.0\nknee = "v"',
             "leg.knee is 'v'; allowed: < or >",
+        ),
+        (
+            "mass = 1.3",
+            "mass = 1.3\ninertia = [1.0, 1.0]",
+            "trunk.inertia is [1.0, 1.0]; allowed: 6 finite numbers [kg m^2]",
+        ),
+        (
+            "mass = 1.3",
+            'mass = 1.3\ninertia = [1, 1, 1, 0, "a", 0]',
+            "trunk.inertia[5] is 'a'; allowed: a finite number [kg m^2]",
+        ),
+        (
+            "mass = 1.3",
+            "mass = 1.3\ninertia = [1, 1, 2.1, 0, 0, 0]",
+            "trunk.inertia: principal moments are 1, 1, 2.1 kg m^2; allowed: above 0, none larger "
+            "than the sum of the others",
+        ),
+        (
+            "[leg.femur]",
+            "[leg.femur]\ninertia = [1, 1, 1, 1, 0, 0]",
+            "leg.femur.inertia: principal moments are 0, 1, 2 kg m^2; allowed: above 0, none",
+        ),
+        (
+            "[leg]",
+            "[leg]\nfemur_range = [50.0, 60.0]",
+            "legs[1]: femur_range is 50 to 60 deg; allowed: around the reference pose, at 43",
+        ),
+        (
+            "[leg]",
+            "[leg]\ntibia_range = [50.0, 361.0]",
+            "leg.tibia_range[2] is 361.0; allowed: a finite number from -360 to 360 [deg]",
+        ),
+        (
+            "[contact]",
+            "[servo.knee]\nlatency = 0.1\n[contact]",
+            "servo.knee.latency is 0.1; allowed: only damping, dry_friction",
+        ),
+        (
+            'name = "RH"',
+            'name = "RH"\nservo = { knee = { dry_friction = -1 } }',
+            "legs[2].servo.knee.dry_friction is -1; allowed: a finite number, 0 or more [N m]",
+        ),
+        (
+            "mass = 1.3",
+            "mass = 1.3\noutline = [0.2, 0.1, 0]",
+            "trunk.outline[3] is 0; allowed: a finite number above 0 [m]",
         ),
         (
             'name = "RH"',
@@ -128,7 +231,7 @@ def written(tmp_path: Path, text: str) -> str:
             'name = "a"\nheight = 3',
             "height is 3; allowed: only contact, controller, leg, legs, mi",
         ),
-        ("[servo]", "[servo]\nforce = 3", "servo.force is 3; allowed: only damping, latency"),
+        ("[servo]", "[servo]\nforce = 3", "servo.force is 3; allowed: only abduction, damp"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_place(

@@ -36,6 +36,7 @@ def units(part: Any) -> dict[str, str]:
     """Unit of every key of a part that is no table; empty where there is none."""
     found = {}
     for name, schema in TypeAdapter(part).json_schema()["properties"].items():
+        schema = schema.get("anyOf", [schema])[0]  # the others: nothing
         value = schema.get("prefixItems", [schema])[0]
         if "$ref" not in value:
             found[name] = value.get("unit", "")

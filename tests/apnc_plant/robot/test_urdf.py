@@ -9,14 +9,16 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from full_robot import full_robot
 from odd_robot import odd_robot
 
 from apnc_plant.kinematics import Kinematics
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.robot.links import links_of
 from apnc_plant.robot.urdf import robot_urdf
+from apnc_plant.signals import JOINTS
 
-ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot()]
+ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot(), full_robot()]
 
 
 @pytest.fixture(params=ROBOTS, ids=lambda robot: robot.name)
@@ -64,11 +66,18 @@ def test_a_servo_is_the_limits_of_its_joint(robot: RobotDescription) -> None:
     model = yourdfpy.URDF.load(io.BytesIO(robot_urdf(robot).encode()))
     moving = [joint for joint in model.joint_map.values() if joint.type != "fixed"]
     assert len(moving) == 3 * len(robot.legs)
-    for joint in moving:
-        assert joint.type == "revolute"
-        assert (joint.limit.lower, joint.limit.upper) == (-math.pi, math.pi)
-        assert joint.limit.effort == robot.servo.stall_torque
-        assert joint.limit.velocity == robot.servo.no_load_speed
+    for leg in robot.legs:
+        for name, stops in zip(JOINTS, leg.stops, strict=True):
+            joint, servo = model.joint_map[f"{leg.name}_{name}"], robot.servo_of(leg, name)
+            assert joint.type == "revolute"
+            found = (joint.limit.lower, joint.limit.upper)
+            full = (-math.pi, math.pi)
+            assert found == tuple(np.where(np.isfinite(stops), stops, full))
+            assert joint.limit.effort == servo.stall_torque
+            assert joint.limit.velocity == servo.no_load_speed
+            own = joint.dynamics
+            assert float(own.damping if own else 0.0) == servo.joint_damping
+            assert float(own.friction if own else 0.0) == servo.dry_friction
 
 
 def test_mujoco_reads_it_too(robot: RobotDescription) -> None:
@@ -89,10 +98,10 @@ def test_what_touches_are_boxes_of_trunk_and_upper_links_and_balls(
         for link in links
     }
     expected: dict[str, list[dict[str, str]]] = {
-        "trunk": [{"size": " ".join(map(str, robot.trunk.size))}]
+        "trunk": [{"size": " ".join(map(str, robot.trunk.edges))}]
     }
-    ball = {"radius": str(robot.contact.foot_radius)}
     for leg in robot.legs:
+        ball = {"radius": str(robot.foot_radius_of(leg))}
         for name, link in (("hip", leg.hip), ("femur", leg.femur)):
             expected[f"{leg.name}_{name}_link"] = [{"size": " ".join(map(str, link.size))}]
         expected |= {f"{leg.name}_tibia_link": [ball], f"{leg.name}_foot": []}

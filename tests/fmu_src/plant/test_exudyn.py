@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from full_robot import full_robot
 from grounds import WALKED
 
 import apnc
@@ -126,6 +127,10 @@ def test_late_slow_and_disturbed_it_walks_as_in_exudyn(conditions: Conditions) -
     servo = replace(LILIBOT.servo, latency=0.03, slew_rate=1.5)
     sensor = replace(LILIBOT.sensor, component="norm", delay=0.021, time_constant=0.04, noise=0.05)
     Walk(replace(LILIBOT, servo=servo, sensor=sensor), Plane(slope=0.05), conditions)
+
+
+def test_a_robot_with_every_key_walks_as_in_exudyn() -> None:
+    Walk(full_robot(), Plane(slope=0.05), Conditions(payload=0.4))
 
 
 def apart(first: apnc.Record, second: apnc.Record) -> float:

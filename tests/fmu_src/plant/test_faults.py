@@ -31,7 +31,7 @@ FAULTS = {
         "accelerations", "dynamics.h", "a2.w.x -= T2.w.z * qd[1];", "a2.w.x += T2.w.z * qd[1];"
     ),
     "rotor forgotten in one joint": Fault(
-        "accelerations", "dynamics.h", "M22 = i23.yy + rotor;", "M22 = i23.yy;"
+        "accelerations", "dynamics.h", "i23.yy + n->joint[1].rotor", "i23.yy"
     ),
     "legs that are never sprawled": Fault(
         "accelerations", "dynamics.h", "v_sin_cos(n->abduction_angle + q[0], ", "v_sin_cos(q[0], "
@@ -53,6 +53,52 @@ FAULTS = {
     ),
     "motor that drives beyond its speed": Fault(
         "accelerations", "servo.h", "stall * v_min(v_max(one - ratio, -one), one)", "stall"
+    ),
+    "servo of another joint": Fault(
+        "accelerations", "numbers.h", "servo_at(own, &robot->servo);", "robot->servo;"
+    ),
+    "friction that drives": Fault(
+        "accelerations", "servo.h", "+ n->friction * slip", "- n->friction * slip"
+    ),
+    "friction without its onset": Fault(
+        "accelerations", "servo.h", "speed * n->per_slow, -one", "speed * 1e9, -one"
+    ),
+    "joint without damping": Fault("accelerations", "servo.h", "n->damping * speed + n", "n"),
+    "stops of the other side": Fault(
+        "accelerations", "numbers.h", "passive.low = -own->high;", "passive.low = own->low;"
+    ),
+    "stop that pulls": Fault(
+        "accelerations", "servo.h", "v_max(spring, zero), zero", "spring, zero"
+    ),
+    "stop damped from the first touch on": Fault(
+        "accelerations", "servo.h", "depth * (1.0 / STOP_DEPTH)", "depth * 1e9"
+    ),
+    "work with friction": Fault(
+        "forces",
+        "dynamics.h",
+        "        add_passive(p, n, s, torque);\n",
+        "        s->work[1] += v_abs(torque[1]); add_passive(p, n, s, torque);\n",
+    ),
+    "feet with one radius": Fault(
+        "forces",
+        "numbers.h",
+        "n->radius = foot_radius(robot, leg);",
+        "n->radius = robot->contact.foot_radius;",
+    ),
+    "stop that the step does not know": Fault(
+        "steps", "step.h", "law.stiffness += passive->stop_stiffness;", ";"
+    ),
+    "friction that the step does not know": Fault(
+        "steps", "step.h", "law.damping += passive->friction * passive->per_slow;", ";"
+    ),
+    "joint damping that the step does not know": Fault(
+        "steps", "step.h", "law.damping += passive->damping;", ";"
+    ),
+    "joints left out of a tuning": Fault(
+        "tuning",
+        "plant.c",
+        "set_leg(&leg, robot, place < h->legs ? place : 0);",
+        "set_leg(&leg, robot, 0);",
     ),
     "friction without bound": Fault(
         "forces", "contact.h", "grip * wide(stopping)", "0.0 * grip * wide(stopping)"

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from c_plant import (
+    PLAIN_LEG,
     STEP,
     TICK,
     CPlant,
@@ -35,7 +36,7 @@ def hopper(damping: float = 0.0) -> Any:
     none = {"mass": 0.0, "com": [0.0] * 3, "inertia": [0.0] * 6}
     straight = {"femur_angle": 0.0, "tibia_angle": 0.0, "femur": LENGTH, "tibia": LENGTH}
     legs = [
-        straight | {"mount": [x, y, 0.0], "hip": [0.0] * 3, "link": [none] * 3}
+        straight | {"mount": [x, y, 0.0], "hip": [0.0] * 3, "link": [none] * 3} | PLAIN_LEG
         for y in (-0.1, 0.1)
         for x in (0.1, -0.1)
     ]

@@ -38,6 +38,23 @@ static void case_body(plant_body *body, double mass, double size) {
     vector_between(body->inertia + 3, 3, -0.02 * s, 0.02 * s);
 }
 
+/* A joint, in half of all cases with nothing of its own. */
+static void case_joint(plant_joint *joint) {
+    *joint = (plant_joint){NAN, NAN, NAN, NAN, NAN, 0.0, 0.0, 0.1, -INFINITY, INFINITY, 0.0, 0.0};
+    if (one_in(2)) return;
+    joint->stiffness = between(20, 60);
+    joint->damping = between(0.5, 2.0);
+    joint->stall_torque = between(3, 5);
+    joint->no_load_speed = between(4, 8);
+    joint->reflected_inertia = between(0.008, 0.012);
+    joint->joint_damping = between(0.0, 0.2);
+    joint->dry_friction = between(0.0, 0.2);
+    if (one_in(2)) joint->low = between(-0.5, -0.05);
+    if (one_in(2)) joint->high = between(0.05, 0.5);
+    joint->stop_stiffness = between(100, 200);
+    joint->stop_damping = between(0.5, 2.0);
+}
+
 static void case_leg(plant_leg *leg, int32_t index, int32_t legs) {
     const double along = legs > 2 ? (double)(index / 2) / (double)((legs - 1) / 2) - 0.5 : 0.0;
     leg->mount[0] = 0.2 * along + between(-0.01, 0.01);
@@ -49,6 +66,8 @@ static void case_leg(plant_leg *leg, int32_t index, int32_t legs) {
     leg->femur_angle = between(0.5, 0.8);
     leg->tibia_angle = between(1.2, 1.6);
     for (int i = 0; i < 3; i++) case_body(&leg->link[i], between(0.05, 0.15), 0.06);
+    for (int i = 0; i < 3; i++) case_joint(&leg->joint[i]);
+    leg->foot_radius = one_in(2) ? NAN : between(0.01, 0.015);
 }
 
 /* A robot that stands; `leg` has room for all legs. */

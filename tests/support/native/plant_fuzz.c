@@ -158,7 +158,7 @@ static void tune(round_case *r, int32_t lane) {
         other.sensor.delay = one_in(2) ? strange() : between(0.0, 0.2);
         l->tame = 0;
     }
-    BOTH(r, lane, plant_tune(at, k, &other.servo, &other.contact, &other.sensor));
+    BOTH(r, lane, plant_tune(at, k, &other));
     tunes++;
 }
 
