@@ -26,7 +26,7 @@ BEYOND: Final = 1e4
 def render(record: Record, summary: WalkFeatures) -> str:
     """HTML text of the report of a run, however the run ended.
 
-    Pitfall: it contains plotly.js (about 1.2 MB) and the part of the record that it shows, most of
+    Pitfall: it contains plotly.js (packed, 0.5 MB) and the part of the record that it shows, most of
     it in 16 bits. The whole record is in ``record.csv``.
     """
     shown = drawable(record)

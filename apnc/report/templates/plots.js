@@ -67,6 +67,7 @@
   // What a plot was drawn as; another look is drawn anew.
   const look = () => `${apnc.dark()} ${document.documentElement.classList.contains("printed")}`;
   const draw = (plot) => {
+    if (!window.Plotly) { apnc.plotly.then(() => draw(plot), () => {}); return; }
     if (plot.drawn === look()) return;
     const { data, layout } = made(plot);
     if (document.documentElement.classList.contains("printed")) layout.width = PRINTED_PX;

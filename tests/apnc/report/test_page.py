@@ -273,3 +273,8 @@ def test_page_carries_the_whole_experiment_and_the_command() -> None:
     assert f"<code>{record.experiment.command()}</code>" in text
     for name in ("robot_weight", "numpy", "conditions"):
         assert f"<code>{name}</code>" in text
+
+
+def test_a_page_of_six_legs_and_45_s_has_at_most_2_mb() -> None:
+    record = apnc.simulate(apnc.Experiment(robot="hexapod", engine="compiled"))
+    assert len(render(record, apnc.walk_features(record)).encode()) <= 2_000_000
