@@ -66,6 +66,8 @@ class _Chance:
         found: dict[str, Any] = {}
         for each in fields(part):  # type: ignore[arg-type]  # a dataclass
             value, inside = getattr(part, each.name), f"{name}.{each.name}"
+            if value is None:  # what a leg has none of its own of
+                continue
             if each.name in UNCERTAIN:
                 found[each.name] = value * (1.0 + self.off(inside))
             elif each.name == SHIFTED:
