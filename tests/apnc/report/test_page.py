@@ -12,6 +12,7 @@ import pytest
 from browser import console_lines, look, needs_browser
 from records import TRIPOD, synthetic_record
 
+import apnc
 from apnc.features import walk_features
 from apnc.loop.record import End, Record
 from apnc.report.page import drawable, render
@@ -277,4 +278,4 @@ def test_page_carries_the_whole_experiment_and_the_command() -> None:
 
 def test_a_page_of_six_legs_and_45_s_has_at_most_2_mb() -> None:
     record = apnc.simulate(apnc.Experiment(robot="hexapod", engine="compiled"))
-    assert len(render(record, apnc.walk_features(record)).encode()) <= 2_000_000
+    assert len(render(record, walk_features(record)).encode()) <= 2_000_000
