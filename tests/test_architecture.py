@@ -30,7 +30,7 @@ PARTS_OF_APNC = (
     ("features",),
     ("many", "walking"),
     ("importing", "report", "system"),
-    ("studies", "view"),
+    ("film", "studies", "view"),
     ("tune",),
     ("cli",),
     ("__main__",),

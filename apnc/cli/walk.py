@@ -27,6 +27,7 @@ from apnc.cli.console import (
     status,
     writable,
 )
+from apnc.cli.film import film_of, film_walk
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 from apnc.cli.live import check_view, viewed
 from apnc.controllers import CONTROLLERS
@@ -162,6 +163,17 @@ def walk(
     mcap: Annotated[
         Path | None, file_option("MCAP log to write, for Foxglove, PlotJuggler or Rerun.")
     ] = None,
+    video: Annotated[
+        Path | None,
+        file_option("Film of the walk to write: .gif, .mp4 or .webm, without a browser."),
+    ] = None,
+    video_size: Annotated[
+        str | None,
+        Option(help="390 (px wide) or 720p. Default: 390 of a GIF, else 720p."),
+    ] = None,
+    video_part: Annotated[
+        str | None, Option(help="BEGIN:END of what is filmed [s]. Default: all of the walk.")
+    ] = None,
     opened: Annotated[bool, Option("--open", help="Open the report in the browser.")] = False,
     view: Annotated[
         bool, Option("--view", help="Show the walk live in the browser, where it can be pushed.")
@@ -180,12 +192,13 @@ def walk(
     with status("starting"):
         read = given(robot=robot, params=params, gait=gait, fmu=fmu)
         written = {"--output": [output / name for name in RUN_FILES]}
-        apart({"--json": json_file, "--mcap": mcap}, read | written)
+        apart({"--json": json_file, "--mcap": mcap, "--video": video}, read | written)
         experiment = experiment_of(context.params)
         writable(output)
         json_path = writable(json_file, file=True) if json_file else None
         mcap_path = _log_path(mcap) if mcap else None
         check_view(view, view_speed)
+        film = film_of(video, video_size, video_part, experiment.duration)
     with viewed(experiment, view, view_speed) as live, bar("walking") as show:
 
         def progress(t: float, controller: Shown) -> None:
@@ -220,6 +233,8 @@ def walk(
     ]
     show_table([(v.question, v.answer, v.detail) for v in answers] + rows(summary) + asked)
     say_file("report", output / "report.html")
+    if film:
+        film_walk(record, film)
     if opened:
         open_page((output / "report.html").absolute().as_uri())
     why = f": {record.message}" if record.message else ""

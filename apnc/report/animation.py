@@ -9,6 +9,7 @@ import numpy as np
 
 from apnc import metrics
 from apnc.report.encoding import Signal, packed
+from apnc.report.look import LOOK
 from apnc.report.panels import Run
 from apnc.report.skeleton import Plant, in_ground, in_trunk, leg_chains, trunk_corners
 from apnc.report.theme import leg_colours
@@ -105,6 +106,7 @@ def fixed_data(
         "reach": reach,
         "radius": robot.contact.foot_radius,
         "normal": ground.rotation()[:, 2].tolist(),
+        "look": LOOK,
     }
 
 

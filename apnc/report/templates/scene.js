@@ -16,7 +16,7 @@ apnc.Scene = class {
 
   // Relative to a heading, so that the side view stays one after a turn.
   view(name, yaw = 0) {
-    [this.azimuth, this.elevation] = { "3d": [-0.95, 0.42], side: [-Math.PI / 2, 0.0], top: [-Math.PI / 2, Math.PI / 2], front: [0, 0.0] }[name];
+    [this.azimuth, this.elevation] = this.look.views[name];
     this.azimuth += yaw;
   }
 
@@ -64,7 +64,7 @@ apnc.Scene = class {
     const dx = x - this.centre[0], dy = y - this.centre[1], dz = z - this.centre[2];
     const ca = Math.cos(this.azimuth), sa = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
     const depth = dx * ca + dy * sa;
-    return [this.width / 2 + (dy * ca - dx * sa) * this.scale, this.height * 0.45 - (dz * ce - depth * se) * this.scale, depth * ce + dz * se];
+    return [this.width / 2 + (dy * ca - dx * sa) * this.scale, this.height * this.look.middle - (dz * ce - depth * se) * this.scale, depth * ce + dz * se];
   }
 
   // Context of an empty canvas in the pixels of the page, and its size.
@@ -79,7 +79,7 @@ apnc.Scene = class {
     [this.context, this.width, this.height] = this.prepare(this.canvas);
     [this.ink, this.halo, this.grid, this.strong] = ["--ink", "--canvas", "--grid", "--landmark"].map(apnc.colour);
     this.context.lineCap = this.context.lineJoin = "round";
-    this.scale = (2.7 * Math.min(this.height, 0.7 * this.width) / this.reach) * this.zoom;
+    this.scale = (this.look.zoom * Math.min(this.height, 0.7 * this.width) / this.reach) * this.zoom;
     this.centre = this.vector(this.focus, i);
     this.surface();
     this.past(i);
@@ -126,13 +126,13 @@ apnc.Scene = class {
   }
 
   past(i) {
-    const points = [], c = this.context;
-    for (let k = Math.max(0, i - 900); k <= i; k += 6) points.push(this.track(k));
-    this.path(points, "#8a94a0", 1.5, null, [2, 5]);
+    const points = [], c = this.context, shown = this.look.prints;
+    for (let k = Math.max(0, i - this.look.tracked); k <= i; k += this.look.trackStep) points.push(this.track(k));
+    this.path(points, this.look.track, 1.5, null, [2, 5]);
     for (const print of this.prints) {
-      if (print.i > i || i - print.i > 600) continue;
+      if (print.i > i || i - print.i > shown) continue;
       const [x, y] = this.project(print.place);
-      c.globalAlpha = 0.55 * (1 - (i - print.i) / 600);
+      c.globalAlpha = 0.55 * (1 - (i - print.i) / shown);
       c.fillStyle = this.colours[print.leg];
       c.beginPath(); c.ellipse(x, y, 6, Math.max(1.2, 6 * Math.sin(this.elevation)), 0, 0, 2 * Math.PI); c.fill();
     }
@@ -142,15 +142,14 @@ apnc.Scene = class {
   // Corners are numbered 4 y + 2 x + z with 0 for the lower and 1 for the upper end of each edge.
   box(i) {
     const corners = Array.from({ length: 8 }, (_, k) => this.placed(i, this.vector(this.corners, k))), seen = corners.map((p) => this.project(p));
-    const faces = [[2, 6, 7, 3, "#a9b6c4"], [4, 0, 1, 5, "#a9b6c4"], [0, 2, 3, 1, "#c0cad5"], [6, 4, 5, 7, "#c0cad5"], [1, 3, 7, 5, "#dde4ec"], [4, 6, 2, 0, "#8f9dac"]];
-    for (const face of faces) {
+    for (const [face, colour] of this.look.faces) {
       const [a, b, c] = face.map((at) => seen[at]);
       const front = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) < 0;
-      if (front) this.trace(face.slice(0, 4).map((at) => seen[at]), "#5b6673", 1, face[4]);
+      if (front) this.trace(face.map((at) => seen[at]), this.look.edge, 1, colour);
     }
     // An arrow on the top shows where the front is.
     const top = ([x, y]) => corners[1].map((v, k) => v + x * (corners[3][k] - v) + y * (corners[5][k] - v));
-    for (const arrow of [[[0.25, 0.5], [0.85, 0.5]], [[0.72, 0.35], [0.85, 0.5], [0.72, 0.65]]]) this.path(arrow.map(top), "#33404d", 2);
+    for (const arrow of this.look.arrow) this.path(arrow.map(top), this.look.nose, 2);
   }
 
   leg(i, leg) {
@@ -172,8 +171,8 @@ apnc.Scene = class {
   // A tenth of a metre stands for half the weight.
   arrow(i, leg) {
     const force = this.vector(this.force, i * this.n + leg), base = this.sole(i, leg);
-    if (Math.hypot(...force) < 0.02 * this.weight) return;
-    const [[x0, y0], [x1, y1]] = [base, base.map((v, k) => v + (force[k] / this.weight) * 0.2)].map((p) => this.project(p));
+    if (Math.hypot(...force) < this.look.leastForce * this.weight) return;
+    const [[x0, y0], [x1, y1]] = [base, base.map((v, k) => v + (force[k] / this.weight) * this.look.force)].map((p) => this.project(p));
     const length = Math.hypot(x1 - x0, y1 - y0), ux = (x1 - x0) / length, uy = (y1 - y0) / length;
     this.trace([[x0, y0], [x1, y1]], this.ink, 2.2);
     if (length >= 8) this.trace([[x1 + 5 * ux, y1 + 5 * uy], [x1 - 5 * ux - 4 * uy, y1 - 5 * uy + 4 * ux], [x1 - 5 * ux + 4 * uy, y1 - 5 * uy - 4 * ux]], null, 0, this.ink);

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from apnc.loop.code import ROOT, code_hash
 
-ONLY_SHOW = {"cli", "report", "system", "view"}
+ONLY_SHOW = {"cli", "film", "report", "system", "view"}
 """Packages of ``apnc`` that show or export results."""
 
 

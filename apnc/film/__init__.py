@@ -1,0 +1,1 @@
+"""A walk as a film, drawn without a browser."""
