@@ -139,7 +139,6 @@ apnc.Scene = class {
     c.globalAlpha = 1;
   }
 
-  // Corners are numbered 4 y + 2 x + z with 0 for the lower and 1 for the upper end of each edge.
   box(i) {
     const corners = Array.from({ length: 8 }, (_, k) => this.placed(i, this.vector(this.corners, k))), seen = corners.map((p) => this.project(p));
     for (const [face, colour] of this.look.faces) {
