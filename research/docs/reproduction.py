@@ -103,6 +103,10 @@ def counts(found: Sequence[Verdict]) -> str:
     ))  # fmt: skip
 
 
+FOLDED: Final = '<details markdown="1">\n<summary>What was measured</summary>\n\n'
+"""Begin of a part of a page that a click unfolds."""
+
+
 def details(found: Sequence[Verdict]) -> str:
     """The page of what was measured, a section per claim."""
     parts = [HEAD]
@@ -112,7 +116,7 @@ def details(found: Sequence[Verdict]) -> str:
         parts.append(f"**{each.verdict}** · {each.where}\n\n")
         if each.why:
             parts.append(f"{each.why}\n\n")
-        parts.append(measured(each.measured))
+        parts.append(f"{FOLDED}{measured(each.measured)}\n</details>\n")
     return "".join(parts)
 
 
