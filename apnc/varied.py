@@ -20,6 +20,9 @@ UNCERTAIN: Final = frozenset({
 """Fields of a robot and its parts that are multiplied by a factor. Lengths and angles, which a
 drawing gives, are none of them; nor is what the controller is set to."""
 
+INERTIA: Final = "inertia"
+"""Field that is off as much as the mass of its body."""
+
 SHIFTED: Final = "com"
 """Field that is shifted instead: a centre of mass may be at 0."""
 
@@ -68,7 +71,10 @@ class _Chance:
             value, inside = getattr(part, each.name), f"{name}.{each.name}"
             if value is None:  # what a leg has none of its own of
                 continue
-            if each.name in UNCERTAIN:
+            if each.name == INERTIA:
+                scale = 1.0 + self.off(f"{name}.mass")
+                found[each.name] = tuple(scale * moment for moment in value)
+            elif each.name in UNCERTAIN:
                 found[each.name] = value * (1.0 + self.off(inside))
             elif each.name == SHIFTED:
                 found[each.name] = self._shifted(value, part.size, inside)  # type: ignore[attr-defined]  # a body

@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Final, NamedTuple
 
-import numpy as np
-
+from apnc.tune.servos import geared, with_rotors
 from apnc.tune.stance import StanceChange, leg_length, stood
 from apnc_core.interface import Parameters
 from apnc_core.types import Array
@@ -175,9 +174,7 @@ def robot_of(start: Start, values: Mapping[str, float]) -> RobotDescription:
     """The robot of values of the design variables."""
     robot = _body(start.robot, values, start.length)
     if "servo.stiffness" in values:
-        stiffness = robot.servo.stiffness * values["servo.stiffness"]
-        damping = stiffness * values["servo.lag"] * start.time
-        robot = replace(robot, servo=replace(robot.servo, stiffness=stiffness, damping=damping))
+        robot = geared(robot, values["servo.stiffness"], values["servo.lag"] * start.time)
     b = float(_parameter(robot, "b1")), float(_parameter(robot, "b2"))
     stance = {name[7:]: value for name, value in values.items() if name.startswith("stance.")}
     robot, (b1, b2) = stood(robot, b, StanceChange(**stance))
@@ -218,15 +215,12 @@ def _body(robot: RobotDescription, values: Mapping[str, float], length: float) -
         )
         robot = replace(robot, legs=legs)
     robot = replace(robot, trunk=trunk)
-    for part in ("servo", "contact"):
-        own = getattr(robot, part)
-        shares = {
-            name: getattr(own, name) * values[f"{part}.{name}"]
-            for name in ("reflected_inertia", "stiffness", "damping")
-            if f"{part}.{name}" in values and f"{part}.{name}" != "servo.stiffness"
-        }
-        if shares:
-            robot = replace(robot, **{part: replace(own, **shares)})
+    if "contact.stiffness" in values:
+        shares = {name: values[f"contact.{name}"] for name in ("stiffness", "damping")}
+        own = {name: getattr(robot.contact, name) * share for name, share in shares.items()}
+        robot = replace(robot, contact=replace(robot.contact, **own))
+    if "servo.reflected_inertia" in values:
+        robot = with_rotors(robot, values["servo.reflected_inertia"])
     return robot
 
 
@@ -242,11 +236,6 @@ def variables_for(
     """
     gains = [each for each in GAINS if scale or each.name != "mi.scale"]
     return (*STANCE, *gains, *(SERVO if servo else ()), *(BODY if body else ()))
-
-
-def spread(variables: Sequence[DesignVariable]) -> Array:
-    """First standard deviation of each variable, as a share of its range, shape (n,)."""
-    return np.full(len(variables), 0.2)
 
 
 def _parameter(robot: RobotDescription, name: str) -> Any:

@@ -18,6 +18,7 @@ from apnc.loop.record import Record
 from apnc.tune.design import Start
 from apnc.tune.runs import Task
 from apnc_core.types import Array
+from apnc_plant.robot import RobotDescription
 
 MIN_SPEED: Final = 0.045
 """Least speed of a walk [sqrt(g L)]."""
@@ -112,7 +113,7 @@ def measured(start: Start, task: Task, record: Record) -> Measured:
     feet = Feet(record, late)
     lifts, slips, cost = _feet(feet, speed, start.length)
     turn = metrics.turned(yaw) or 0.0
-    stall = np.array([record.robot.servo.stall_torque])
+    stall = _stall_torques(record.robot)
     torque = np.abs(signals["joint_torque"][late])
     work = signals["joint_work"][late].reshape(len(yaw), -1).sum(axis=1)
     way = max(speed, MIN_SPEED * start.gravity_speed) * float(time[-1] - time[late][0])
@@ -144,6 +145,18 @@ def target(n_legs: int) -> Array:
     if found is None:
         raise ValueError(f"no gait is known for {n_legs} legs; allowed: 4, 6 or 8")
     return np.asarray(found)
+
+
+def _stall_torques(robot: RobotDescription) -> Array:
+    """Largest torque of every servo [N m], shape (n, 3)."""
+    common = robot.servo.stall_torque
+    return np.array([
+        [
+            robot.servo.own_of_joint(joint, leg.servo).get("stall_torque", common)
+            for joint in ("abduction", "hip", "knee")
+        ]
+        for leg in robot.legs
+    ])  # fmt: skip
 
 
 def _feet(feet: Feet, speed: float, length: float) -> tuple[float, float, float]:

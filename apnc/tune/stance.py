@@ -10,6 +10,9 @@ import numpy as np
 
 from apnc_plant.robot import Leg, RobotDescription
 
+_FROM_STOPS = 0.03
+"""Least distance of a reference angle from the stops of its joint [rad]."""
+
 _FOLDED = 0.02
 """Least distance of hip and foot from that of a straight or a folded leg, in leg lengths."""
 
@@ -70,12 +73,23 @@ def stood(
         leg if abs(hip - b1) < 1e-12 and abs(knee - b2) < 1e-12
         else replace(
             leg,
-            femur_angle=leg.femur_angle - (hip - b1),
-            tibia_angle=leg.tibia_angle + _bends(leg) * (knee - b2),
+            femur_angle=_inside(leg.femur_angle - (hip - b1), leg.femur_range),
+            tibia_angle=_inside(
+                leg.tibia_angle + _bends(leg) * (knee - b2), leg.tibia_range
+            ),
         )
         for leg, (hip, knee) in zip(robot.legs, moved, strict=True)
     )  # fmt: skip
     return replace(robot, legs=legs), (b1, b2)
+
+
+def _inside(angle: float, stops: tuple[float, float] | None) -> float:
+    """The nearest angle between the stops of a joint [rad]."""
+    if stops is None:
+        return angle
+    low, high = stops
+    margin = min(_FROM_STOPS, 0.25 * (high - low))
+    return min(max(angle, low + margin), high - margin)
 
 
 def _ends(legs: Sequence[Leg]) -> list[float]:

@@ -127,7 +127,9 @@ def _found_in_search(tuned: Tuned) -> Verdict:
         f"{more}with APC alone at {alone}; one walk each. Interrupted before it walked with seeds "
         "of its own."
     )
-    return Verdict("What was found?", f"{answer[:1].upper()}{answer[1:]}", detail, "fair" if good else "bad")
+    return Verdict(
+        "What was found?", f"{answer[:1].upper()}{answer[1:]}", detail, "fair" if good else "bad"
+    )
 
 
 def _margin(found: Validation) -> Verdict:

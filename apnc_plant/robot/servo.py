@@ -42,6 +42,10 @@ class JointServo:
     stop_damping: Damping | None = None
 
 
+NOTHING_OWN: Final = JointServo()
+"""The servo of a joint that has nothing of its own."""
+
+
 @checked(RobotDescriptionError)
 class LegServos:
     """What the servos of a leg have of their own.
@@ -108,13 +112,15 @@ class Servo:
             joint: ``abduction``, ``hip`` or ``knee``.
             leg: what the servos of its leg have of their own.
         """
-        own = _said((getattr(self, joint), getattr(leg, joint)))
-        plain = JointServo()
-        return replace(self, **own, abduction=plain, hip=plain, knee=plain)
+        own = self.own_of_joint(joint, leg)
+        if not own and self.abduction == self.hip == self.knee == NOTHING_OWN:
+            return self
+        return replace(self, **own, abduction=NOTHING_OWN, hip=NOTHING_OWN, knee=NOTHING_OWN)
 
     def own_of_joint(self, joint: str, leg: LegServos) -> dict[str, float]:
         """What the servo of a joint has of its own, by key; arguments as of :meth:`of_joint`."""
-        return _said((getattr(self, joint), getattr(leg, joint)))
+        servos = getattr(self, joint), getattr(leg, joint)
+        return {} if servos == (NOTHING_OWN, NOTHING_OWN) else _said(servos)
 
 
 def _said(servos: Iterable[JointServo]) -> dict[str, Any]:
