@@ -14,7 +14,7 @@ Part = TypeVar("Part")
 UNCERTAIN: Final = frozenset({
     "mass", "com_side_offset",
     "stiffness", "damping", "stall_torque", "no_load_speed", "reflected_inertia", "latency",
-    "damping_depth", "friction", "friction_speed",
+    "joint_damping", "dry_friction", "damping_depth", "friction", "friction_speed",
     "delay", "time_constant", "noise",
 })  # fmt: skip
 """Fields of a robot and its parts that are multiplied by a factor. Lengths and angles, which a

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -32,8 +32,8 @@ def test_every_number_of_servo_contact_sensor_and_every_mass_is_off_by_itself(
     for part in ("servo", "contact", "sensor"):
         for field in fields(getattr(robot, part)):
             value = getattr(getattr(robot, part), field.name)
-            if field.name in ("foot_radius", "component") or value == 0.0:
-                continue  # a length, a word, and what the robot does not have
+            if not isinstance(value, float) or field.name == "foot_radius" or value == 0.0:
+                continue  # a word, a length, what joints have of their own, what is not there
             own = [getattr(getattr(copy, part), field.name) / value for copy in copies]
             shares[f"{part}.{field.name}"] = own
     for index, body in enumerate(bodies(robot)):
@@ -77,3 +77,13 @@ def test_the_same_chance_gives_the_same_robot() -> None:
     assert varied(robot, 0.0, np.random.default_rng(7)) == robot
     with pytest.raises(ValueError, match=r"share is 1\.0; allowed: 0 and more, below 1"):
         varied(robot, 1.0, np.random.default_rng(7))
+
+
+def test_an_inertia_of_its_own_is_off_as_the_mass_is() -> None:
+    robot = load_robot("lilibot")
+    moments = (0.004, 0.009, 0.011, 0.0002, 0.0001, 0.0003)
+    own = replace(robot, trunk=replace(robot.trunk, inertia=moments))
+    copy = varied(own, 0.2, np.random.default_rng(3))
+    share = copy.trunk.mass / own.trunk.mass
+    assert abs(share - 1.0) > 0.01
+    assert copy.trunk.inertia == pytest.approx([share * each for each in moments], rel=1e-12)
