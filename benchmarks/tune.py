@@ -5,14 +5,14 @@ measured and gets its cost. In MuJoCo every run has a model of its own, exported
 all of them go through ``mujoco.rollout`` tick by tick, with the steps that give the force error of
 the robot in C (see ``benchmarks.mujoco_rollout``). What is measured there are the records of the
 same runs in C, so that both loops do the same work beside the robot. To start the controllers does
-not count. Wall time.
+not count. Time of the processor for one thread, wall time for two.
 """
 
 from __future__ import annotations
 
 import math
 import statistics
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
@@ -38,7 +38,7 @@ from apnc_plant.chance import side_offset
 from apnc_plant.robot import RobotDescription, load_robot
 from benchmarks.command import Size, main
 from benchmarks.mujoco_rollout import AIMED_AT, INTEGRATORS, Exported, steps_at_equal_error
-from benchmarks.rows import Row, in_turn, wall_s
+from benchmarks.rows import Row, in_turn, processor_s, wall_s
 
 CANDIDATES: Final = 8
 """Candidates of a generation; the lanes of two threads are filled some times."""
@@ -60,7 +60,7 @@ def start_of(robot: str) -> Start:
     description = load_robot(robot)
     return Start(
         description, description.rate or 60.0, MI_AIMED,
-        variables_for(servo=True, body=False, scale=True), False,
+        variables_for(4, servo=True, body=False, scale=True), False,
     )  # fmt: skip
 
 
@@ -139,16 +139,16 @@ def judged(plan: Plan, found: Sequence[Measured]) -> list[float]:
 
 
 def in_c(start: Start, plan: Plan, threads: int) -> float:
-    """Wall time of a generation in C for a robot-second [ms]."""
+    """Time of a generation in C for a robot-second [ms]."""
     tasks = [task for own in plan for task in own]
     evaluate = Evaluator(start, threads)
-    return 1000.0 * wall_s(lambda: judged(plan, evaluate(tasks))) / seconds(tasks)
+    return _taken(threads, lambda: judged(plan, evaluate(tasks))) / seconds(tasks)
 
 
 def in_mujoco(
     start: Start, plan: Plan, records: Sequence[Record], way: tuple[str, int], threads: int
 ) -> float:
-    """Wall time of a generation in MuJoCo for a robot-second [ms]."""
+    """Time of a generation in MuJoCo for a robot-second [ms]."""
     tasks = [task for own in plan for task in own]
     runs = [task.experiment for task in tasks]
     with ExitStack() as open_:
@@ -160,7 +160,11 @@ def in_mujoco(
             Loops(runs, *way).walk(controllers, threads)
             judged(plan, [measured(start, *pair) for pair in zip(tasks, records, strict=True)])
 
-        return 1000.0 * wall_s(work) / seconds(tasks)
+        return _taken(threads, work) / seconds(tasks)
+
+
+def _taken(threads: int, work: Callable[[], object]) -> float:
+    return 1000.0 * (processor_s(work) if threads == 1 else wall_s(work))
 
 
 def measure(size: Size) -> list[Row]:

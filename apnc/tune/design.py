@@ -10,12 +10,17 @@ from typing import Any, Final, NamedTuple
 from apnc.tune.servos import geared, with_rotors
 from apnc.tune.stance import StanceChange, leg_length, stood
 from apnc_core.interface import Parameters
+from apnc_core.schema import Type
 from apnc_core.types import Array
+from apnc_core.variables import variable_named
 from apnc_plant.robot import RobotDescription
 
 MI_AIMED: Final = (0.08, 0.28)
 """MI range that is aimed at before it is scaled: that of the paper's gaits, slow to fast."""
 
+
+FEW_LEGS: Final = 4
+"""Number of legs of the paper's robot, for which the default gains were found."""
 
 MI_OF_PAPER: Final = (0.04, 0.40)
 """MI range of the paper's experiments; it is not scaled."""
@@ -66,6 +71,12 @@ GAINS: Final = (
     DesignVariable("mi.scale", 0.5, 1.45, log=True),
 )
 """The controller: slopes of the motor neurons, learning rates, and the MI range."""
+
+MANY_LEGS: Final = (
+    DesignVariable("kappa_hold", 60.0, 500.0, log=True),
+    DesignVariable("o1_start", 0.005, 0.2, log=True),
+)
+"""More of the controller for more than four legs, whose gait forms slowly."""
 
 SERVO: Final = (
     DesignVariable("servo.stiffness", 0.4, 2.5, log=True),
@@ -178,7 +189,11 @@ def robot_of(start: Start, values: Mapping[str, float]) -> RobotDescription:
     b = float(_parameter(robot, "b1")), float(_parameter(robot, "b2"))
     stance = {name[7:]: value for name, value in values.items() if name.startswith("stance.")}
     robot, (b1, b2) = stood(robot, b, StanceChange(**stance))
-    gains: dict[str, Any] = {name: value for name, value in values.items() if "." not in name}
+    gains: dict[str, Any] = {
+        name: round(value) if variable_named(name).type is Type.integer else value
+        for name, value in values.items()
+        if "." not in name
+    }
     if stance:
         gains |= {"b1": b1, "b2": b2}
     scale = values.get("mi.scale", 1.0)
@@ -225,17 +240,19 @@ def _body(robot: RobotDescription, values: Mapping[str, float], length: float) -
 
 
 def variables_for(
-    *, servo: bool = True, body: bool = False, scale: bool = True
+    legs: int, *, servo: bool = True, body: bool = False, scale: bool = True
 ) -> tuple[DesignVariable, ...]:
     """What is searched.
 
     Args:
+        legs: number of legs.
         servo: whether the gains of the servos may be changed.
         body: whether what is uncertain of the body may be changed.
         scale: whether the MI range may be scaled.
     """
     gains = [each for each in GAINS if scale or each.name != "mi.scale"]
-    return (*STANCE, *gains, *(SERVO if servo else ()), *(BODY if body else ()))
+    many = MANY_LEGS if legs > FEW_LEGS else ()
+    return (*STANCE, *gains, *many, *(SERVO if servo else ()), *(BODY if body else ()))
 
 
 def _parameter(robot: RobotDescription, name: str) -> Any:
