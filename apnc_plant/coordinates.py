@@ -14,13 +14,31 @@ BASE: Final = 6
 """Coordinates of the floating base: x, y, z [m], yaw, pitch, roll [rad]; the joints follow."""
 
 
-def joint_signs(robot: RobotDescription) -> Array:
-    """Tree coordinate per joint angle, 1 or -1, shape (n_legs, 3).
+class Joints:
+    """Converts between joint angles, in the order of ``signals.JOINTS``, and the tree.
 
-    Coordinates of hip and knee turn about +y. A leg swings forward about -y, and so does a tibia
-    forward, which flexes a knee that lies behind the line from hip to foot.
+    In the tree the joints of a leg stand from the trunk outward. Its coordinates turn about +x, +y
+    or +z, so a hip turns back and a knee lets the tibia swing back.
 
     Args:
         robot: the robot.
     """
-    return np.array([[link.sign for link in links_of(leg)] for leg in robot.legs])
+
+    def __init__(self, robot: RobotDescription) -> None:
+        links = [links_of(leg) for leg in robot.legs]
+        self._angle = np.array([[link.angle for link in leg] for leg in links])
+        self._place = np.argsort(self._angle, axis=1)
+        self._sign = np.array([[link.sign for link in leg] for leg in links])
+
+    def in_tree(self, angles: Array) -> Array:
+        """Coordinates of the tree [rad], shape (n_legs, 3), from joint angles of that shape."""
+        return np.asarray(np.take_along_axis(angles, self._angle, axis=1) * self._sign)
+
+    def angles(self, tree: Array) -> Array:
+        """Joint angles, from coordinates of the tree, both of the shape (..., n_legs, 3)."""
+        return self.by_angle(tree * self._sign)
+
+    def by_angle(self, tree: Array) -> Array:
+        """What has no sign, in the order of the joint angles; shapes as of :meth:`angles`."""
+        place = np.broadcast_to(self._place, tree.shape)
+        return np.asarray(np.take_along_axis(tree, place, axis=-1))

@@ -13,7 +13,7 @@ from apnc_core.types import Array
 from apnc_plant.chance import checked_seed, side_offset
 from apnc_plant.compiled import foot_mass
 from apnc_plant.conditions import Conditions
-from apnc_plant.coordinates import BASE, joint_signs
+from apnc_plant.coordinates import BASE, Joints
 from apnc_plant.forces import RobotForces
 from apnc_plant.ground import Ground, GroundInC, Plane
 from apnc_plant.numbers import robot_numbers
@@ -133,7 +133,7 @@ class LeggedPlant:
         self.time = 0.0
         self._seed = checked_seed(seed)
         self._sensor = LoadSensor(robot.sensor, self.legs, robot.weight, self._seed)
-        self._reading, self._signs = np.zeros(self.n_legs), joint_signs(robot)
+        self._reading, self._joints = np.zeros(self.n_legs), Joints(robot)
         self._build()
         self.set_conditions(self._conditions)
 
@@ -147,7 +147,7 @@ class LeggedPlant:
         self._coming: deque[tuple[float, Array]] | None = None
         coordinates = self._start.copy()
         coordinates[2] += self._conditions.held_at or 0.0
-        coordinates[BASE:] *= self._signs.ravel()
+        coordinates[BASE:] = self._joints.in_tree(coordinates[BASE:].reshape(-1, 3)).ravel()
         self._forces = RobotForces(robot, self._ground, coordinates[BASE:])
         self._forces.foot_mass = foot_mass(robot, numbers, ground, self._start)
         trunk = robot.trunk.loaded(offset, payload)
@@ -204,7 +204,7 @@ class LeggedPlant:
         if self._coming is None:
             self._coming = self._before_the_start(duration)
         self._commanded = targets
-        self._coming.append((self._robot.servo.latency, targets * self._signs))
+        self._coming.append((self._robot.servo.latency, self._joints.in_tree(targets)))
         self._integrate_tick(self._coming, duration)
         self._measure()
         self._forces.check()
@@ -232,7 +232,7 @@ class LeggedPlant:
         With them the first ticks, too, are divided at the moments at which commands arrive.
         """
         ages = range(math.ceil(self._robot.servo.latency / Ts * (1.0 - NOW)) - 1, 0, -1)
-        pose = self._commanded * self._signs
+        pose = self._joints.in_tree(self._commanded)
         return deque((self._robot.servo.latency - age * Ts, pose) for age in ages)
 
     def _integrate_tick(self, coming: deque[tuple[float, Array]], duration: float) -> None:
@@ -296,10 +296,10 @@ class LeggedPlant:
             "position": q[:, :3].copy(),
             "rpy": q[:, [5, 4, 3]],
             "velocity": v[:, :3].copy(),
-            "joint_angle": per_leg(q[:, BASE:]) * self._signs,
-            "joint_speed": per_leg(v[:, BASE:]) * self._signs,
-            "joint_torque": per_leg(torque) * self._signs,
-            "joint_work": per_leg(work.copy()),
+            "joint_angle": self._joints.angles(per_leg(q[:, BASE:])),
+            "joint_speed": self._joints.angles(per_leg(v[:, BASE:])),
+            "joint_torque": self._joints.angles(per_leg(torque)),
+            "joint_work": self._joints.by_angle(per_leg(work)),
             "foot_position": per_leg(foot.copy()),
             "foot_force": per_leg(force.copy()),
             "grf": reading.copy(),

@@ -34,6 +34,10 @@ def suspension(robot: RobotDescription) -> tuple[float, ...]:
     return tuple(number * scale for number, scale in zip(SUSPENSION, scales, strict=True))
 
 
+_KINDS: Final = {"abduction": 0, "hip": 1, "coxa": 2}
+"""``PLANT_ABDUCTION`` and so on, by the first joint of a leg."""
+
+
 class Numbers(NamedTuple):
     """A struct of C and the arrays it points to.
 
@@ -114,6 +118,9 @@ def leg_numbers(robot: RobotDescription, leg: Leg) -> dict[str, Any]:
         "foot_radius": math.nan if leg.foot_radius is None else leg.foot_radius,
         "abduction_angle": leg.side * leg.abduction_angle,
         "knee_in_front": int(leg.knee == ">"),
+        "kind": _KINDS[leg.chain[0] if len(leg.chain) == 3 or leg.has_coxa else "abduction"],
+        "locked": [int(link.locked) for link in links_of(leg)],
+        "pointing": leg.side * (math.pi / 2.0 - leg.pointing) if leg.has_coxa else 0.0,
     }
 
 

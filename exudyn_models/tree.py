@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from math import cos, sin
 from typing import Any, Final
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from apnc_core.types import Array
 from apnc_plant.coordinates import BASE
 from apnc_plant.robot.body import MassProperties
-from apnc_plant.robot.links import Link, links_of
+from apnc_plant.robot.links import LOCKED, Link, links_of
 from apnc_plant.robot.model import Leg, RobotDescription
 from apnc_plant.robot.quantities import Vector3
+from apnc_plant.signals import JOINTS
 from exudyn_models.engine import exu, items
 
 UPRIGHT: Final = np.eye(3)
@@ -26,7 +27,11 @@ Forces = Callable[[Any, float, int, list[float], list[float]], list[float]]
 
 @dataclass
 class _Links:
-    """Lists that describe the links of the tree, with one entry per coordinate."""
+    """Lists that describe the links of the tree, with one entry per coordinate.
+
+    Attributes:
+        rotors: reflected rotor inertia of the joints of the legs [kg m^2].
+    """
 
     types: list[Any] = field(default_factory=list)
     parents: list[int] = field(default_factory=list)
@@ -35,12 +40,13 @@ class _Links:
     masses: list[float] = field(default_factory=list)
     inertias: list[Array] = field(default_factory=list)
     coms: list[Array] = field(default_factory=list)
+    rotors: list[float] = field(default_factory=list)
 
     def add(
         self,
         joint: Any,
         parent: int,
-        offset: Vector3 = (0.0, 0.0, 0.0),
+        offset: Vector3 | Array = (0.0, 0.0, 0.0),
         rotation: Array = UPRIGHT,
         body: MassProperties = MASSLESS,
     ) -> int:
@@ -75,7 +81,7 @@ def add_tree(
     links = _Links()
     base = _add_base(links, trunk)
     for leg in robot.legs:
-        _add_leg(links, leg, base)
+        _add_leg(links, leg, base, robot)
     size = len(links.parents)
     node = mbs.AddNode(
         items().NodeGenericODE2(
@@ -86,7 +92,7 @@ def add_tree(
         )
     )
     tree = mbs.AddObject(_tree_object(links, node, gravity, forces))
-    _add_reflected_inertia(mbs, node, robot)
+    _add_reflected_inertia(mbs, node, links.rotors)
     return tree
 
 
@@ -99,11 +105,19 @@ def _add_base(links: _Links, trunk: MassProperties) -> int:
     return links.add(kind.RevoluteX, link, body=trunk)
 
 
-def _add_leg(links: _Links, leg: Leg, trunk: int) -> None:
-    at, kind = trunk, exu().JointType
+def _add_leg(links: _Links, leg: Leg, trunk: int, robot: RobotDescription) -> None:
+    at, inner = trunk, UPRIGHT
     for link in links_of(leg):
-        joint = kind.RevoluteX if link.axis[0] != 0.0 else kind.RevoluteY
-        at = links.add(joint, at, link.position, _rotation(link), link.body)
+        # Exudyn turns joints about x, y or z of a frame, so frames are yawed to oblique axes
+        joint, frame = _joint_of(link)
+        body = MassProperties(
+            link.body.mass, frame.T @ link.body.com, frame.T @ link.body.inertia @ frame
+        )
+        turn = inner.T @ Rotation.from_rotvec(link.turn * np.array(link.axis)).as_matrix() @ frame
+        at = links.add(joint, at, inner.T @ link.position, turn, body)
+        inner = frame
+        rotor = robot.servo_of(leg, JOINTS[link.angle]).reflected_inertia
+        links.rotors.append(LOCKED if link.locked else rotor)
 
 
 def _tree_object(links: _Links, node: Any, gravity: float, forces: Forces) -> Any:
@@ -121,16 +135,17 @@ def _tree_object(links: _Links, node: Any, gravity: float, forces: Forces) -> An
     )
 
 
-def _add_reflected_inertia(mbs: Any, node: Any, robot: RobotDescription) -> None:
+def _add_reflected_inertia(mbs: Any, node: Any, rotors: list[float]) -> None:
     # The tree has no field for rotor inertia; a second object on the same node adds it to M.
-    joints = [robot.servo_of(leg, link.joint) for leg in robot.legs for link in links_of(leg)]
-    diagonal = np.array([0.0] * BASE + [joint.reflected_inertia for joint in joints])
+    diagonal = np.concatenate([np.zeros(BASE), rotors])
     mbs.AddObject(items().ObjectGenericODE2(nodeNumbers=[node], massMatrix=np.diag(diagonal)))
 
 
-def _rotation(link: Link) -> Array:
-    """Rotation from the frame of a link to its parent's in the reference pose."""
-    c, s = cos(link.turn), sin(link.turn)
-    if link.axis[0] != 0.0:
-        return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
-    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+def _joint_of(link: Link) -> tuple[Any, Array]:
+    """Kind of a joint, and the rotation from the frame in which it has this kind to its link's."""
+    kind, (x, y, z) = exu().JointType, link.axis
+    if link.axis == (0.0, 1.0, 0.0):
+        return kind.RevoluteY, UPRIGHT
+    if z != 0.0:
+        return kind.RevoluteZ, UPRIGHT
+    return kind.RevoluteX, np.array([[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, 1.0]])

@@ -14,9 +14,10 @@ from apnc_plant.ground import GroundInC, Plane
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot.body import MassProperties
-from apnc_plant.robot.links import links_of, range_of
+from apnc_plant.robot.links import LOCKED, links_of, range_of
 from apnc_plant.robot.model import GRAVITY, Leg, RobotDescription
 from apnc_plant.robot.servo import Servo
+from apnc_plant.signals import JOINTS
 from apnc_plant.start import start_coordinates
 from mujoco_models.contact import IMPRATIO, STEP, Geom, geom_of, pair_of
 
@@ -103,7 +104,12 @@ def robot_mjcf(
 
 def joints_of(robot: RobotDescription) -> list[str]:
     """Names of the joints, leg by leg from the trunk outward."""
-    return [f"{leg.name}_{link.joint}" for leg in robot.legs for link in links_of(leg)]
+    return [
+        f"{leg.name}_{link.joint}"
+        for leg in robot.legs
+        for link in links_of(leg)
+        if not link.locked
+    ]
 
 
 def foot_of(leg: Leg) -> str:
@@ -131,29 +137,29 @@ def _model(robot: RobotDescription) -> tuple[Element, Element]:
 def _leg(trunk: Element, leg: Leg, robot: RobotDescription, foot: Geom | None = None) -> None:
     """A leg: with contact parameters of its foot for other programs, without for our own plant."""
     at = trunk
-    for link, box, stops in zip(
-        links_of(leg), (leg.hip, leg.femur, leg.tibia), leg.stops, strict=True
-    ):
-        half, servo = link.turn / 2.0, robot.servo_of(leg, link.joint)
+    for link, box in zip(links_of(leg), (leg.hip, leg.femur, leg.tibia), strict=True):
+        half, servo = link.turn / 2.0, robot.servo_of(leg, JOINTS[link.angle])
         turn = (cos(half), *(sin(half) * part for part in link.axis))
         at = _add(
             at, "body", name=f"{leg.name}_{link.name}",
             pos=_numbers(link.position), quat=_numbers(turn),
         )  # fmt: skip
-        joint = _add(
-            at, "joint", name=f"{leg.name}_{link.joint}",
-            axis=_numbers(link.positive if foot else link.axis),
-            armature=repr(servo.reflected_inertia),
-        )  # fmt: skip
+        if not (foot and link.locked):
+            joint = _add(
+                at, "joint", name=f"{leg.name}_{link.joint}",
+                axis=_numbers(link.positive if foot else link.axis),
+                armature=repr(LOCKED if link.locked else servo.reflected_inertia),
+            )  # fmt: skip
+            if foot:
+                joint.set("range", _numbers(range_of(leg.stops[link.angle])))
+                joint.set("actuatorfrcrange", _numbers(_within(servo.stall_torque)))
+                joint.set("damping", repr(servo.joint_damping))
+                joint.set("frictionloss", repr(servo.dry_friction))
         _inertial(at, link.body)
         if foot:
-            joint.set("range", _numbers(range_of(stops)))
-            joint.set("actuatorfrcrange", _numbers(_within(servo.stall_torque)))
-            joint.set("damping", repr(servo.joint_damping))
-            joint.set("frictionloss", repr(servo.dry_friction))
             # the box of a tibia must not collide: its edges would touch beside the ball
             touch = _UNTOUCHED if box is leg.tibia else _TOUCHING
-            _box(at, leg.outward(box.com), box.size, touch)
+            _box(at, leg.outward(box.com), box.size, touch, leg.yaw)
     ball = {"pos": _numbers((0.0, 0.0, -leg.tibia_length)), "type": "sphere"}
     radius = robot.foot_radius_of(leg)
     touch = {**_TOUCHING, "priority": "1", **_contact(robot, *foot)} if foot else _UNTOUCHED
@@ -194,9 +200,13 @@ def _inertial(body: Element, properties: MassProperties) -> None:
     _add(body, "inertial", turn, pos=center, mass=mass, diaginertia=diagonal)
 
 
-def _box(body: Element, center: Sequence[float], size: Sequence[float], touch: Any) -> None:
+def _box(
+    body: Element, center: Sequence[float], size: Sequence[float], touch: Any, yaw: float = 0.0
+) -> None:
     half = _numbers(edge / 2.0 for edge in size)
-    _add(body, "geom", type="box", pos=_numbers(center), size=half, rgba=_PLASTIC, **touch)
+    geom = _add(body, "geom", type="box", pos=_numbers(center), size=half, rgba=_PLASTIC, **touch)
+    if yaw != 0.0:
+        geom.set("quat", _numbers((cos(yaw / 2.0), 0.0, 0.0, sin(yaw / 2.0))))
 
 
 def _ground(root: Element, robot: RobotDescription, admittances: Sequence[float]) -> None:
@@ -219,7 +229,12 @@ def _ground(root: Element, robot: RobotDescription, admittances: Sequence[float]
 
 
 def _actuators(root: Element, robot: RobotDescription, servo: str) -> None:
-    servos = [robot.servo_of(leg, link.joint) for leg in robot.legs for link in links_of(leg)]
+    servos = [
+        robot.servo_of(leg, JOINTS[link.angle])
+        for leg in robot.legs
+        for link in links_of(leg)
+        if not link.locked
+    ]
     if servo == "position":
         _no_load_speeds(_add(root, "custom"), robot, servos)
     of = _add(root, "actuator")

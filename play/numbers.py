@@ -126,9 +126,9 @@ def chains_of(robot: RobotDescription) -> list[dict[str, Any]]:
                     "axis": link.axis,
                     "turn": link.turn,
                     "sign": link.sign,
-                    "angle": k,
+                    "angle": link.angle,
                 }
-                for k, link in enumerate(links_of(leg))
+                for link in links_of(leg)
             ],
         }
         for leg in robot.legs

@@ -205,6 +205,7 @@ class Lanes:
         latency: of the servos [s].
         delay: of the sensors [s].
         flat: whether the ground is a plane.
+        usual_legs: whether all joints turn about the usual axes, see ``plant_place``.
     """
 
     fmu: str
@@ -214,6 +215,7 @@ class Lanes:
     latency: float
     delay: float
     flat: bool
+    usual_legs: bool
 
 
 def lanes_of(experiment: Experiment) -> Lanes:
@@ -227,6 +229,7 @@ def lanes_of(experiment: Experiment) -> Lanes:
         robot.servo.latency,
         robot.sensor.delay,
         experiment.ground.flat,
+        robot.usual_legs,
     )
 
 

@@ -48,9 +48,10 @@ def frames_of(record: Record) -> list[Frame]:
     still = np.tile((0.0, 0.0, 0.0, 1.0), (count, 1))
     for number, leg in enumerate(record.robot.legs):
         parent = TRUNK
-        for link, angle in zip(links_of(leg), signals["joint_angle"][:, number].T, strict=True):
+        angles = signals["joint_angle"][:, number]
+        for link in links_of(leg):
             name = f"{leg.name}_{link.name}"
-            turned = link.turn + link.sign * angle
+            turned = link.turn + link.sign * angles[:, link.angle]
             rotation = Rotation.from_rotvec(np.outer(turned, link.axis))
             place = np.tile(link.position, (count, 1))
             frames.append(Frame(parent, name, place, rotation.as_quat()))

@@ -36,10 +36,10 @@ def leg_chains(robot: RobotDescription, plant: Plant) -> Array:
 def _chain(leg: Leg, angles: Array) -> Array:
     """Joints of a leg in the trunk [m], shape (T, 3, 3), from its angles, shape (3, T)."""
     frame, at, found = Rotation.identity(), np.zeros((angles.shape[1], 3)), []
-    for link, angle in zip(links_of(leg), angles, strict=True):
+    for link in links_of(leg):
         at = at + frame.apply(link.position)
         found.append(at)
-        turned = link.turn + link.sign * angle
+        turned = link.turn + link.sign * angles[link.angle]
         frame = frame * Rotation.from_rotvec(np.outer(turned, link.axis))
     return np.stack(found, axis=1)
 

@@ -58,16 +58,31 @@ class JointsInFile:
     knee: JointInFile | None = None
 
 
+CHAINS: Final = (
+    ("abduction", "hip", "knee"),
+    ("hip", "abduction", "knee"),
+    ("hip", "knee"),
+    ("coxa", "femur", "tibia"),
+    ("coxa", "femur"),
+)
+"""Joints that a leg may have, from the trunk outward.
+
+Abduction turns about x, hip and knee about y, a coxa about z, and then femur and tibia about the
+horizontal axis across the leg.
+"""
+
+
 @checked(RobotDescriptionError)
 class Leg:
-    """A leg with an abduction joint about x, and hip and knee joints about y.
+    """A leg of three joints, usually an abduction about x, and a hip and a knee about y.
 
-    Vectors other than ``mount`` have y pointing outward, away from the middle plane.
+    Vectors other than ``mount`` have y pointing outward, away from the middle plane, or along the
+    leg if that is ``pointing`` elsewhere.
 
     Args:
         name: name of the leg, e.g. ``"RF"``.
-        mount: abduction joint on the trunk, from the trunk's reference point [m].
-        hip_offset: abduction axis to hip axis [m].
+        mount: first joint on the trunk, from the trunk's reference point [m].
+        hip_offset: first joint to second [m].
         femur_length, tibia_length: pivot to pivot, and knee to centre of the foot ball [m].
         femur_angle: reference pose, femur back of vertical [rad].
         tibia_angle: reference pose, tibia forward of the femur [rad].
@@ -80,10 +95,14 @@ class Leg:
             ``abduction_angle``, ``femur_angle`` and ``tibia_angle`` [rad]; None for none.
         foot_radius: radius of its foot ball [m]; None for that of the contact.
         servo: what its servos have of their own.
+        chain: its joints from the trunk outward, one of ``CHAINS``. With a coxa, ``femur_angle`` is
+            outward of vertical and ``tibia_angle`` inward of the femur. The controller's hip angle
+            turns the coxa, its knee angle the femur, and the tibia is held as an abduction is.
+        pointing: where a leg with a coxa points, forward of straight outward [rad].
 
     Raises:
-        RobotDescriptionError: a value out of range, ``knee`` and ``tibia_angle`` contradict each
-            other, or the reference pose is not between the stops.
+        RobotDescriptionError: a value out of range, keys that contradict each other, or the
+            reference pose is not between the stops.
     """
 
     name: Name
@@ -104,8 +123,23 @@ class Leg:
     tibia_range: Range | None = None
     foot_radius: Edge | None = None
     servo: LegServos = field(default_factory=LegServos)
+    chain: tuple[str, ...] = CHAINS[0]
+    pointing: Angle = 0.0
 
     def __post_init__(self) -> None:
+        if self.chain not in CHAINS:
+            known = " or ".join(str(list(chain)) for chain in CHAINS)
+            raise ValueError(f"chain is {list(self.chain)}; allowed: {known}")
+        unknown = "abduction_angle" if self.has_coxa else "pointing"
+        if getattr(self, unknown) != 0.0:
+            raise ValueError(
+                f"{unknown} is {math.degrees(getattr(self, unknown)):.4g} deg and chain is "
+                f"{list(self.chain)}; allowed with it: 0"
+            )
+        if self.has_coxa and self.abduction_range is not None:
+            raise ValueError(
+                f"abduction_range is given and chain is {list(self.chain)}; allowed with it: none"
+            )
         if (self.tibia_angle > 0.0) if self.knee == ">" else (self.tibia_angle < 0.0):
             allowed = "0 and less" if self.knee == ">" else "0 and more, or the other knee"
             raise ValueError(
@@ -131,6 +165,10 @@ class Leg:
         signs = (self.side, -1.0, -1.0 if self.knee == ">" else 1.0)
         ranges = (self.abduction_range, self.femur_range, self.tibia_range)
         angles = (self.abduction_angle, self.femur_angle, self.tibia_angle)
+        if self.has_coxa:  # tibia, coxa, femur: outward, forward, up
+            signs = (-self.side, 1.0, 1.0)
+            ranges = (self.tibia_range, None, self.femur_range)
+            angles = (self.tibia_angle, 0.0, self.femur_angle)
         stops = []
         for sign, (low, high), angle in zip(
             signs, (each or FREE for each in ranges), angles, strict=True
@@ -144,16 +182,34 @@ class Leg:
         """-1 for a leg on the right, +1 on the left or in the middle."""
         return -1.0 if self.mount[1] < 0.0 else 1.0
 
+    @property
+    def has_coxa(self) -> bool:
+        """Whether the first joint turns about z."""
+        return self.chain[0] == "coxa"
+
+    @property
+    def yaw(self) -> float:
+        """Turn of the leg about z from where it would point straight outward [rad]."""
+        return -self.side * self.pointing
+
     def outward(self, vector: Vector3) -> Vector3:
         """The vector in axes parallel to the trunk's, given one with y pointing outward [m]."""
-        return (vector[0], self.side * vector[1], vector[2])
+        x, y, z = vector[0], self.side * vector[1], vector[2]
+        if self.pointing == 0.0:
+            return (x, y, z)
+        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        return (c * x - s * y, s * x + c * y, z)
 
     def mass_properties(self, link: Body) -> MassProperties:
         """Mass properties of one of the links, on the side this leg is on."""
-        mirror = np.array(self.outward((1.0, 1.0, 1.0)))
+        mirror = np.array([1.0, self.side, 1.0])
         inertia = link.inertia_tensor()
         if link.inertia is not None:
             inertia = inertia * np.outer(mirror, mirror)
+        if self.pointing != 0.0:
+            c, s = math.cos(self.yaw), math.sin(self.yaw)
+            turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+            inertia = turn @ inertia @ turn.T
         return MassProperties(link.mass, np.array(self.outward(link.com)), inertia)
 
     @property
@@ -315,6 +371,11 @@ class RobotDescription:
             for joint in fields(JointsInFile)
             if (own := getattr(leg.joints, joint.name)) is not None
         )
+
+    @property
+    def usual_legs(self) -> bool:
+        """Whether the joints of all legs turn about x, y and y."""
+        return all(leg.chain in (CHAINS[0], CHAINS[2]) for leg in self.legs)
 
     @property
     def mass(self) -> float:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import asin, atan2, cos, sin
 from typing import Any, Final
 from xml.etree import ElementTree
 
 import numpy as np
 
 from apnc_plant.robot.body import MassProperties
-from apnc_plant.robot.links import links_of, range_of
+from apnc_plant.robot.links import Link, links_of, range_of
 from apnc_plant.robot.model import Leg, RobotDescription
 from apnc_plant.robot.names import plainly_named
 from apnc_plant.robot.servo import Servo
+from apnc_plant.signals import JOINTS
 
 ROOTS: Final = ("trunk", "base")
 """Names that the root link may have, see :func:`robot_urdf`."""
@@ -64,22 +66,25 @@ def robot_urdf(robot: RobotDescription, *, root: str = "trunk") -> str:
 
 def _leg(root: Element, leg: Leg, robot: RobotDescription) -> None:
     parent, common = "trunk", _comment(robot.servo).text
-    for link, box, stops in zip(
-        links_of(leg), (leg.hip, leg.femur, leg.tibia), leg.stops, strict=True
-    ):
-        servo = robot.servo_of(leg, link.joint)
+    for link, box in zip(links_of(leg), (leg.hip, leg.femur, leg.tibia), strict=True):
+        servo, stops = robot.servo_of(leg, JOINTS[link.angle]), leg.stops[link.angle]
         limits = dict(zip(("lower", "upper"), map(repr, range_of(stops)), strict=True))
         limits |= {"effort": repr(servo.stall_torque), "velocity": repr(servo.no_load_speed)}
         name = f"{leg.name}_{link.name}"
         element = _link(root, name, link.body)
-        _box(element, leg.outward(box.com), box.size, _SEEN if box is leg.tibia else _TOUCHING)
-        joint = _joint(root, f"{leg.name}_{link.joint}", "revolute", parent, name)
+        touch = _SEEN if box is leg.tibia else _TOUCHING
+        _box(element, leg.outward(box.com), box.size, touch, leg.yaw)
+        kind = "fixed" if link.locked else "revolute"
+        joint = _joint(root, f"{leg.name}_{link.joint}", kind, parent, name)
         _add(
             joint,
             "origin",
             xyz=_numbers(link.position),
-            rpy=_numbers(link.turn * part for part in link.axis),
+            rpy=_numbers(_rpy(link)),
         )
+        parent = name
+        if link.locked:
+            continue
         _add(joint, "axis", xyz=_numbers(link.positive))
         _add(joint, "limit", limits)
         if servo.joint_damping or servo.dry_friction:
@@ -87,7 +92,6 @@ def _leg(root: Element, leg: Leg, robot: RobotDescription) -> None:
             _add(joint, "dynamics", {key: repr(value) for key, value in passive.items()})
         if (comment := _comment(servo)).text != common:
             joint.append(comment)
-        parent = name
     foot = (0.0, 0.0, -leg.tibia_length)
     for kind in _TOUCHING:
         shape = _add(element, kind)
@@ -130,12 +134,28 @@ _TOUCHING: Final = ("visual", "collision")
 
 
 def _box(
-    link: Element, center: Iterable[float], size: Iterable[float], kinds: Iterable[str]
+    link: Element,
+    center: Iterable[float],
+    size: Iterable[float],
+    kinds: Iterable[str],
+    yaw: float = 0.0,
 ) -> None:
     for kind in kinds:
         shape = _add(link, kind)
-        _add(shape, "origin", xyz=_numbers(center))
+        origin = _add(shape, "origin", xyz=_numbers(center))
+        if yaw != 0.0:
+            origin.set("rpy", _numbers((0.0, 0.0, yaw)))
         _add(_add(shape, "geometry"), "box", size=_numbers(size))
+
+
+def _rpy(link: Link) -> tuple[float, float, float]:
+    """Roll, pitch and yaw of a link in its parent's frame in the reference pose [rad]."""
+    x, y, z = link.axis
+    if sorted(map(abs, link.axis)) == [0.0, 0.0, 1.0]:
+        return (link.turn * x, link.turn * y, link.turn * z)
+    c, s = cos(link.turn), sin(link.turn)  # a horizontal axis
+    row = (-s * y, s * x, c)
+    return (atan2(row[1], row[2]), -asin(row[0]), atan2((1 - c) * x * y, (1 - c) * x * x + c))
 
 
 def _numbers(values: Iterable[float]) -> str:

@@ -8,8 +8,8 @@
 #ifndef PLANT_DYNAMICS_H
 #define PLANT_DYNAMICS_H
 
+#include "any_axes.h"
 #include "ground.h"
-#include "robot.h"
 
 /* Orientation and motion of the trunk. */
 typedef struct {
@@ -55,16 +55,8 @@ INL trunk_motion trunk_moves(const plant_parts *p) {
     return m;
 }
 
-/* Position and motion of a leg. The axes of the leg are the trunk's, turned by the abduction. */
-typedef struct {
-    V c1, s1, ca, sa, cb,
-        sb;          /* cosine and sine of the abduction and of the angles of femur and tibia */
-    v3 femur, tibia; /* [m] hip to knee, knee to foot, in the axes of the leg */
-    v3 foot;         /* [m] centre of the foot, in the axes of the trunk */
-    twist first, second, third; /* of the links at their joints, in the axes of the leg */
-} leg_motion;
-
-INL leg_motion leg_moves(const leg_numbers *n, const V *q, const V *qd, v3 w, v3 v) {
+/* Motion of a leg with abduction about x, hip and knee about y. */
+INL leg_motion leg_moves_xyy(const leg_numbers *n, const V *q, const V *qd, v3 w, v3 v) {
     leg_motion m;
     const V zero = v_all(0.0);
     const V alpha = n->femur_angle + q[1], beta = alpha - n->tibia_angle + q[2];
@@ -85,12 +77,10 @@ INL leg_motion leg_moves(const leg_numbers *n, const V *q, const V *qd, v3 w, v3
     return m;
 }
 
-/* Action of the ground on the feet of a group of legs. */
-typedef struct {
-    v3 force;  /* [N] in the axes of the legs */
-    v3 moment; /* [N m] about the knees */
-    V load;    /* [N] sum of the normal forces */
-} push;
+/* any: 1 for legs with any axes. Where it is a constant only one of the two is compiled. */
+INL leg_motion leg_moves(int any, const leg_numbers *n, const V *q, const V *qd, v3 w, v3 v) {
+    return any ? leg_moves_any(n, q, qd, w, v) : leg_moves_xyy(n, q, qd, w, v);
+}
 
 INL void add_push(const plant_parts *p, const leg_numbers *n, const leg_motion *m, v3 normal,
                   V depth, B stopping, push *sum) {
@@ -172,10 +162,10 @@ INL push push_of_ground(const plant_parts *p, const plant_ground *const *grounds
 enum { SUM_H = 21, SUM_M = 24, SUM_X = 25, SUMS = 31 };
 #define LOWER(i, j) ((i) * ((i) + 1) / 2 + (j))
 
-/* Inward pass of a leg: bias forces, composite inertia and elimination of its joints. Its
- * contribution to the trunk's equations is written to `part`. */
-INL void leg_inward(const leg_numbers *n, const leg_motion *m, const V *qd, const V *torque,
-                    const push *ground, leg_kept *k, V part[SUMS]) {
+/* Bias forces and composite inertia of a leg with abduction about x, hip and knee about y. */
+INL leg_balance leg_balance_xyy(const leg_numbers *n, const leg_motion *m, const V *qd,
+                                const V *torque, const push *ground) {
+    leg_balance b;
     const V zero = v_all(0.0);
     const twist T1 = m->first, T2 = m->second, T3 = m->third;
     const v3 r = n->hip, d = m->femur;
@@ -206,33 +196,50 @@ INL void leg_inward(const leg_numbers *n, const leg_motion *m, const V *qd, cons
     const wrench m2 = moved(f2, r);
     f1.n = v_add(f1.n, m2.n);
     f1.f = v_add(f1.f, m2.f);
-    const V u[3] = {torque[0] - f1.n.x, torque[1] - f2.n.y, torque[2] - f3.n.y};
+    b.u[0] = torque[0] - f1.n.x;
+    b.u[1] = torque[1] - f2.n.y;
+    b.u[2] = torque[2] - f3.n.y;
+    b.bias = f1;
     /* composite inertias, and columns of the mass matrix */
     const v_inertia i23 = joined(shifted(i3, d), &i2);
-    const v_inertia i123 = joined(shifted(i23, r), &n->link[0]);
+    b.all = joined(shifted(i23, r), &n->link[0]);
     wrench F3 = {{i3.xy, i3.yy, i3.yz}, {i3.h.z, zero, -i3.h.x}};
-    const V M33 = i3.yy + n->joint[2].rotor;
+    b.M33 = i3.yy + n->joint[2].rotor;
     F3 = moved(F3, d);
-    const V M23 = F3.n.y;
+    b.M23 = F3.n.y;
     F3 = moved(F3, r);
-    const V M13 = F3.n.x;
+    b.M13 = F3.n.x;
     wrench F2 = {{i23.xy, i23.yy, i23.yz}, {i23.h.z, zero, -i23.h.x}};
-    const V M22 = i23.yy + n->joint[1].rotor;
+    b.M22 = i23.yy + n->joint[1].rotor;
     F2 = moved(F2, r);
-    const V M12 = F2.n.x;
-    const wrench F1 = {{i123.xx, i123.xy, i123.xz}, {zero, -i123.h.z, i123.h.y}};
-    const V M11 = i123.xx + n->joint[0].rotor;
+    b.M12 = F2.n.x;
+    b.column[2] = (wrench){{b.all.xx, b.all.xy, b.all.xz}, {zero, -b.all.h.z, b.all.h.y}};
+    b.M11 = b.all.xx + n->joint[0].rotor;
+    b.column[0] = F3;
+    b.column[1] = F2;
+    return b;
+}
+
+/* Inward pass of a leg: bias forces, composite inertia and elimination of its joints. Its
+ * contribution to the trunk's equations is written to `part`. A locked joint has one over D of 0,
+ * so nothing accelerates it and no other joint sees it. */
+INL void leg_inward(int any, const leg_numbers *n, const leg_motion *m, const V *qd,
+                    const V *torque, const push *ground, leg_kept *k, V part[SUMS]) {
+    const V zero = v_all(0.0);
+    const leg_balance b =
+        any ? leg_balance_any(n, m, qd, torque, ground) : leg_balance_xyy(n, m, qd, torque, ground);
+    const V *u = b.u;
     /* L D L' of the three joints, knee first */
-    const V d3 = 1.0 / M33, l32 = M23 * d3, l31 = M13 * d3;
-    const V e22 = M22 - l32 * M23, e12 = M12 - l32 * M13, d2 = 1.0 / e22, l21 = e12 * d2;
-    const V e11 = M11 - l31 * M13 - l21 * e12, d1 = 1.0 / e11;
+    const V d3 = n->free[2] / b.M33, l32 = b.M23 * d3, l31 = b.M13 * d3;
+    const V e22 = b.M22 - l32 * b.M23, e12 = b.M12 - l32 * b.M13, d2 = n->free[1] / e22,
+            l21 = e12 * d2;
+    const V e11 = b.M11 - l31 * b.M13 - l21 * e12, d1 = n->free[0] / e11;
     const V u2 = u[1] - l32 * u[2], u1 = u[0] - l31 * u[2] - l21 * u2;
     /* columns in the axes of the trunk, about its reference point */
-    wrench W[3] = {F3, F2, F1};
     V G[3][6];
     for (int j = 0; j < 3; j++) {
-        const v3 f = about_x(m->c1, m->s1, W[j].f);
-        const v3 t = v_add(about_x(m->c1, m->s1, W[j].n), v_cross(n->mount, f));
+        const v3 f = about_x(m->c1, m->s1, b.column[j].f);
+        const v3 t = v_add(about_x(m->c1, m->s1, b.column[j].n), v_cross(n->mount, f));
         G[j][0] = t.x;
         G[j][1] = t.y;
         G[j][2] = t.z;
@@ -243,10 +250,10 @@ INL void leg_inward(const leg_numbers *n, const leg_motion *m, const V *qd, cons
     for (int i = 0; i < 6; i++) G[1][i] -= l32 * G[0][i];
     for (int i = 0; i < 6; i++) G[2][i] -= l31 * G[0][i] + l21 * G[1][i];
     /* contribution to the trunk's equations */
-    const v3 force = about_x(m->c1, m->s1, f1.f);
-    const v3 moment = v_add(about_x(m->c1, m->s1, f1.n), v_cross(n->mount, force));
+    const v3 force = about_x(m->c1, m->s1, b.bias.f);
+    const v3 moment = v_add(about_x(m->c1, m->s1, b.bias.n), v_cross(n->mount, force));
     const V bias[6] = {moment.x, moment.y, moment.z, force.x, force.y, force.z};
-    const v_inertia c = shifted(turned_x(m->c1, m->s1, i123), n->mount);
+    const v_inertia c = shifted(turned_x(m->c1, m->s1, b.all), n->mount);
     const V own[6] = {c.xx, c.xy, c.yy, c.xz, c.yz, c.zz};
     for (int i = 0; i < 6; i++) {
         const V g0 = G[0][i] * d3, g1 = G[1][i] * d2, g2 = G[2][i] * d1;
@@ -417,7 +424,8 @@ INL void add_passive(const plant_parts *p, const leg_numbers *n, const leg_state
 
 /* Accelerations from coordinates, speeds and targets. dt: length of the step that begins [s]; the
  * friction threshold and the work of the servos need it. */
-INL void accelerate(const plant_parts *p, const plant_ground *const *grounds, double dt) {
+INL void accelerate_legs(int any, const plant_parts *p, const plant_ground *const *grounds,
+                         double dt) {
     const robot_numbers *robot = p->robot;
     const trunk_motion t = trunk_moves(p);
     const v3 w = wide3(t.w), v = wide3(t.v);
@@ -427,7 +435,7 @@ INL void accelerate(const plant_parts *p, const plant_ground *const *grounds, do
     for (int32_t g = 0; g < p->groups; g++) {
         leg_state *s = &p->state[g];
         const leg_numbers *n = &p->leg[g];
-        const leg_motion m = leg_moves(n, s->q, s->qd, w, v);
+        const leg_motion m = leg_moves(any, n, s->q, s->qd, w, v);
         const push ground = push_of_ground(p, grounds, &t, n, &m, g, stopping);
         V torque[3], part[SUMS];
         for (int j = 0; j < 3; j++) {
@@ -435,7 +443,7 @@ INL void accelerate(const plant_parts *p, const plant_ground *const *grounds, do
             s->work[j] += v_abs(torque[j] * s->qd[j]) * dt;
         }
         add_passive(p, n, s, torque);
-        leg_inward(n, &m, s->qd, torque, &ground, &p->kept[g], part);
+        leg_inward(any, n, &m, s->qd, torque, &ground, &p->kept[g], part);
         add_up(p, g, sum, part, SUMS);
     }
     add_linear_part(sum);
@@ -445,6 +453,19 @@ INL void accelerate(const plant_parts *p, const plant_ground *const *grounds, do
     solve_trunk(sum, z);
     for (int32_t g = 0; g < p->groups; g++) leg_outward(&p->kept[g], z, p->state[g].qdd);
     trunk_outward(robot, &t, z, p->trunk);
+}
+
+/* A function of its own, so that the compiler sees the usual legs alone. */
+OUT_OF_LINE void accelerate_any(const plant_parts *p, const plant_ground *const *grounds,
+                                double dt) {
+    accelerate_legs(1, p, grounds, dt);
+}
+
+INL void accelerate(const plant_parts *p, const plant_ground *const *grounds, double dt) {
+    if (p->any_axes)
+        accelerate_any(p, grounds, dt);
+    else
+        accelerate_legs(0, p, grounds, dt);
 }
 
 #endif

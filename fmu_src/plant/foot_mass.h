@@ -13,14 +13,14 @@ static inline void pushed_foot(const plant_parts *p, const trunk_motion *t, int3
     trunk_alone(p->robot, t, sum);
     for (int32_t g = 0; g < p->groups; g++) {
         const leg_motion m =
-            leg_moves(&p->leg[g], p->state[g].q, none, (v3){0, 0, 0}, (v3){0, 0, 0});
+            leg_moves(p->any_axes, &p->leg[g], p->state[g].q, none, (v3){0, 0, 0}, (v3){0, 0, 0});
         push ground = {{0, 0, 0}, {0, 0, 0}, 0};
         V part[SUMS];
         if (g == pushed) {
             ground.force = about_x(m.c1, -m.s1, wide3(force));
             ground.moment = v_cross(m.tibia, ground.force);
         }
-        leg_inward(&p->leg[g], &m, none, none, &ground, &p->kept[g], part);
+        leg_inward(p->any_axes, &p->leg[g], &m, none, none, &ground, &p->kept[g], part);
         add_up(p, g, sum, part, SUMS);
     }
     add_linear_part(sum);
@@ -47,7 +47,7 @@ static inline double least_foot_mass(const plant_parts *p) {
             V qdd[3];
             pushed_foot(p, &t, leg, along[i], z, qdd);
             /* at rest, accelerations obey the same relations as speeds */
-            const leg_motion m = leg_moves(&p->leg[leg], p->state[leg].q, qdd,
+            const leg_motion m = leg_moves(p->any_axes, &p->leg[leg], p->state[leg].q, qdd,
                                            (v3){z[0], z[1], z[2]}, (v3){z[3], z[4], z[5]});
             const v3 knee = v_add(m.third.v, v_cross(m.third.w, m.tibia));
             const v3 foot = about_x(m.c1, m.s1, knee);

@@ -46,16 +46,18 @@ static void suspend(const plant_suspension *by, const double *held, const double
 
 /* Add the action of the ground on a foot to the generalized forces of trunk and joints. The wrench
  * on the tibia is moved to the axis of every joint in turn. */
-static void add_generalized(const leg_numbers *n, const leg_motion *m, const trunk_motion *t,
-                            const push *ground, double *base, double *joint) {
+static void add_generalized(int any, const leg_numbers *n, const leg_motion *m,
+                            const trunk_motion *t, const push *ground, double *base,
+                            double *joint) {
     const wrench at_knee = {ground->moment, ground->force};
-    const wrench at_hip = moved(at_knee, m->femur), at_abduction = moved(at_hip, n->hip);
+    const wrench at_hip = moved(at_knee, m->femur);
+    const wrench at_abduction = moved(at_hip, any ? m->hip : n->hip);
     const v3 force = about_x(m->c1, m->s1, at_abduction.f);
     const v3 moment = v_add(about_x(m->c1, m->s1, at_abduction.n), v_cross(n->mount, force));
     const v3 world = v_turn(&t->turn, force);
-    joint[0] += at_abduction.n.x;
-    joint[1] += at_hip.n.y;
-    joint[2] += at_knee.n.y;
+    joint[0] += any ? v_dot(m->axis[0], at_abduction.n) : at_abduction.n.x;
+    joint[1] += any ? v_dot(m->axis[1], at_hip.n) : at_hip.n.y;
+    joint[2] += any ? v_dot(m->axis[2], at_knee.n) : at_knee.n.y;
     base[0] += world.x;
     base[1] += world.y;
     base[2] += world.z;
@@ -95,9 +97,11 @@ void plant_forces(const plant_robot *robot, const plant_ground *ground, const do
             if (numbers.passive > 0.0)
                 out[6 + i] += passive_torque(&joint->passive, q[6 + i], v[6 + i]);
         }
-        const leg_motion m = leg_moves(&leg, q + 6 + 3 * k, v + 6 + 3 * k, wide3(t.w), wide3(t.v));
+        const int any = robot->leg[k].kind != PLANT_ABDUCTION;
+        const leg_motion m =
+            leg_moves(any, &leg, q + 6 + 3 * k, v + 6 + 3 * k, wide3(t.w), wide3(t.v));
         const push pushed = push_of_ground(&p, &ground, &t, &leg, &m, 0, stopping);
-        add_generalized(&leg, &m, &t, &pushed, out, out + 6 + 3 * k);
+        add_generalized(any, &leg, &m, &t, &pushed, out, out + 6 + 3 * k);
         write_vector(foot + 3 * k, v_add(wide3(trunk.x), v_turn(&t.turn, m.foot)));
         write_vector(force + 3 * k, v_turn(&t.turn, about_x(m.c1, m.s1, pushed.force)));
         load[k] = pushed.load;
@@ -120,9 +124,12 @@ void plant_leg_points(const plant_leg *leg, double abduction, double hip, double
     const v3 zero = {0.0, 0.0, 0.0};
     leg_numbers n;
     set_geometry(&n, leg);
-    const V q[3] = {n.sign[0] * abduction, n.sign[1] * hip, n.sign[2] * knee};
-    const leg_motion m = leg_moves(&n, q, still, zero, zero);
-    const v3 pivot = v_add(n.mount, about_x(m.c1, m.s1, n.hip));
+    const double angles[3] = {abduction, hip, knee};
+    V q[3];
+    for (int j = 0; j < 3; j++) q[j] = n.sign[j] * angles[(int)n.angle[j]];
+    const int any = leg->kind != PLANT_ABDUCTION;
+    const leg_motion m = leg_moves(any, &n, q, still, zero, zero);
+    const v3 pivot = v_add(n.mount, any ? m.hip : about_x(m.c1, m.s1, n.hip));
     write_vector(points, pivot);
     write_vector(points + 3, v_add(pivot, about_x(m.c1, m.s1, m.femur)));
     write_vector(points + 6, m.foot);

@@ -24,9 +24,11 @@
 #endif
 
 #if defined(__GNUC__)
-#define INL static inline __attribute__((always_inline, unused))
+#define INL         static inline __attribute__((always_inline, unused))
+#define OUT_OF_LINE static __attribute__((noinline, unused))
 #else
-#define INL static inline
+#define INL         static inline
+#define OUT_OF_LINE static
 #endif
 
 #define LANES_TO_WHOLE 6755399441055744.0 /* 1.5 * 2^52: adding it rounds to a whole number */

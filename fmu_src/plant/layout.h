@@ -17,6 +17,7 @@ typedef struct {
     int32_t width;                   /* numbers side by side in V */
     int32_t robots;                  /* numbers side by side in B */
     int32_t groups;                  /* of legs, see robot.h */
+    int32_t any_axes;                /* see plant_parts */
     int32_t coming_first;            /* entry of the oldest command that waits */
     int32_t coming_count;            /* number of commands that wait */
     int32_t loads_last;              /* entry of the newest reading */
@@ -49,6 +50,7 @@ INL plant_parts parts_of(void *memory) {
     p.legs = h->legs;
     p.groups = h->groups;
     p.contacts = h->contacts;
+    p.any_axes = h->any_axes;
     p.lanes = h->robots;
     return p;
 }

@@ -58,7 +58,7 @@ static inline double foot_radius(const plant_robot *robot, int32_t leg) {
 /* The parts of a leg that plant_tune changes. */
 static inline void set_joints(leg_numbers *n, const plant_robot *robot, int32_t leg) {
     for (int j = 0; j < 3; j++) {
-        const plant_joint *own = &robot->leg[leg].joint[j];
+        const plant_joint *own = &robot->leg[leg].joint[(int)n->angle[j]];
         const plant_servo servo = servo_at(own, &robot->servo);
         passive_numbers passive = passive_of(own);
         if (n->sign[j] < 0.0) { /* the coordinate is minus the joint angle */
@@ -70,6 +70,35 @@ static inline void set_joints(leg_numbers *n, const plant_robot *robot, int32_t 
     n->radius = foot_radius(robot, leg);
 }
 
+/* A joint of a leg: its axis in the straight pose, its turn from there to the reference pose [rad],
+ * the joint angle that turns it, and the coordinate per angle. */
+static inline void set_joint(leg_numbers *n, int j, v3 axis, double reference, int angle,
+                             double sign) {
+    n->axis[j] = axis;
+    n->reference[j] = reference;
+    n->angle[j] = angle;
+    n->sign[j] = sign;
+}
+
+static inline void set_axes(leg_numbers *n, const plant_leg *leg) {
+    const v3 x = {1.0, 0.0, 0.0}, y = {0.0, 1.0, 0.0}, z = {0.0, 0.0, 1.0};
+    const double side = leg->mount[1] < 0.0 ? -1.0 : 1.0;
+    const double flexes = leg->knee_in_front ? 1.0 : -1.0;
+    if (leg->kind == PLANT_COXA) {
+        double s, c;
+        s_sin_cos(leg->pointing, &s, &c);
+        const v3 across = {s, -c, 0.0};
+        set_joint(n, 0, z, 0.0, 1, -side);
+        set_joint(n, 1, across, leg->femur_angle, 2, 1.0);
+        set_joint(n, 2, across, -leg->tibia_angle, 0, side);
+        return;
+    }
+    const int hip = leg->kind == PLANT_HIP ? 0 : 1;
+    set_joint(n, 1 - hip, x, leg->abduction_angle, 0, 1.0);
+    set_joint(n, hip, y, leg->femur_angle, 1, -1.0);
+    set_joint(n, 2, y, -leg->tibia_angle, 2, flexes);
+}
+
 static inline void set_geometry(leg_numbers *n, const plant_leg *leg) {
     n->mount = (v3){leg->mount[0], leg->mount[1], leg->mount[2]};
     n->hip = (v3){leg->hip[0], leg->hip[1], leg->hip[2]};
@@ -78,9 +107,8 @@ static inline void set_geometry(leg_numbers *n, const plant_leg *leg) {
     n->femur_angle = leg->femur_angle;
     n->tibia_angle = leg->tibia_angle;
     n->abduction_angle = leg->abduction_angle;
-    n->sign[0] = 1.0;
-    n->sign[1] = -1.0;
-    n->sign[2] = leg->knee_in_front ? 1.0 : -1.0;
+    for (int j = 0; j < 3; j++) n->free[j] = leg->locked[j] ? 0.0 : 1.0;
+    set_axes(n, leg);
     for (int i = 0; i < 3; i++) n->link[i] = about_frame(&leg->link[i]);
 }
 
@@ -108,6 +136,13 @@ static inline void set_sensor(robot_numbers *n, const plant_sensor *sensor) {
     n->time_constant = sensor->time_constant;
     n->noise = n->deviation = sensor->noise * n->half_weight;
     n->norm = sensor->norm ? 1.0 : 0.0;
+}
+
+/* Whether a robot has legs of other kinds than PLANT_ABDUCTION. */
+static inline int32_t has_any_axes(const plant_robot *robot) {
+    for (int32_t leg = 0; leg < robot->legs; leg++)
+        if (robot->leg[leg].kind != PLANT_ABDUCTION) return 1;
+    return 0;
 }
 
 /* Rotation from a ground to the world. */
@@ -152,8 +187,9 @@ static inline void set_start(const plant_parts *p, const double *coordinates, do
     for (int32_t leg = 0; leg < p->legs; leg++) {
         leg_state *s = &p->state[leg];
         for (int j = 0; j < 3; j++) {
-            const double angle = coordinates[6 + 3 * leg + j];
-            s->q[j] = s->target[j] = s->asked[j] = s->commanded[j] = p->leg[leg].sign[j] * angle;
+            const leg_numbers *n = &p->leg[leg];
+            const double angle = coordinates[6 + 3 * leg + (int)n->angle[j]];
+            s->q[j] = s->target[j] = s->asked[j] = s->commanded[j] = n->sign[j] * angle;
         }
         s->sound = 1.0;
         s->stuck = NAN;

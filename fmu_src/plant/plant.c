@@ -120,10 +120,11 @@ int32_t plant_intact(const void *memory, int32_t kind, int32_t level, int32_t le
     if (h.coming_count < 0 || h.coming_count > history) return 0;
     if (h.loads_last < 0 || h.loads_last >= history) return 0;
     if (h.loads_count < 1 || h.loads_count > history) return 0;
+    if (h.any_axes != 0 && h.any_axes != 1) return 0;
     for (int32_t robot = 0; robot < own.robots; robot++)
         if (h.fares[robot] < PLANT_WALKS || h.fares[robot] > PLANT_DIVERGED) return 0;
     /* all other fields must be those of this layout */
-    h.coming_first = h.coming_count = h.loads_last = h.loads_count = 0;
+    h.coming_first = h.coming_count = h.loads_last = h.loads_count = h.any_axes = 0;
     h.latency = h.delay = 0.0;
     memset(h.fares, 0, sizeof h.fares);
     memset(h.seed, 0, sizeof h.seed);
@@ -159,9 +160,9 @@ static double *of_leg(void *plant, size_t part, size_t count, size_t i, int32_t 
 #define LEG(plant, field, leg, lane)                                                               \
     of_leg(plant, ((plant_header *)(plant))->state, NUMBERS_OF(leg_state),                         \
            PLACE_OF(leg_state, field), leg, lane)
-#define SIGN(plant, j, leg, lane)                                                                  \
+#define NUMBER(plant, field, leg, lane)                                                            \
     of_leg(plant, ((plant_header *)(plant))->leg, NUMBERS_OF(leg_numbers),                         \
-           PLACE_OF(leg_numbers, sign) + (j), leg, lane)
+           PLACE_OF(leg_numbers, field), leg, lane)
 
 /* Copy the robot of a plant with one lane into a lane of another plant. */
 static void put(void *plant, int32_t lane, void *single) {
@@ -183,6 +184,9 @@ static void put(void *plant, int32_t lane, void *single) {
                 *of_leg(plant, each[k].to, each[k].count, i, leg, lane) =
                     *of_leg(single, each[k].from, each[k].count, i, leg < h->legs ? leg : 0, 0);
 }
+
+/* Which joint angle a joint has; a number of stored bytes may be any. */
+static int angle_of(double number) { return number == 1.0 ? 1 : number == 2.0 ? 2 : 0; }
 
 static int32_t places_of(const plant_header *h) {
     return h->robots == h->width ? h->legs : h->groups * h->width;
@@ -223,6 +227,7 @@ void plant_place(void *plant, int32_t lane, const plant_robot *robot, const plan
                  uint64_t seed, const double *coordinates, double height, double Ts) {
     plant_header *h = (plant_header *)plant;
     void *single = h->width > 1 ? (char *)plant + h->scratch : plant;
+    ((plant_header *)single)->any_axes = has_any_axes(robot);
     const plant_parts p = parts_of(single);
     V load[64];
     memset(p.robot, 0, sizeof *p.robot);
@@ -236,6 +241,7 @@ void plant_place(void *plant, int32_t lane, const plant_robot *robot, const plan
     const trunk_motion t = trunk_moves(&p);
     measure(&p, &ground, &t, 0.0, load);
     if (single != plant) put(plant, lane, single);
+    h->any_axes = p.any_axes || (h->robots > 1 && h->any_axes);
     start_under_way(plant, lane, robot->servo.latency, robot->sensor.delay, Ts);
     h->fares[lane] = fallen(&p, ground, &t, 0) ? PLANT_FELL : PLANT_WALKS;
     h->seed[lane] = seed;
@@ -300,9 +306,11 @@ void plant_set_conditions(void *plant, int32_t lane, const plant_conditions *con
 void plant_command(void *plant, int32_t lane, const double *hip, const double *knee) {
     const plant_header *h = (const plant_header *)plant;
     for (int32_t leg = 0; leg < h->legs; leg++) {
-        *LEG(plant, asked[0], leg, lane) = 0.0;
-        *LEG(plant, asked[1], leg, lane) = *SIGN(plant, 1, leg, lane) * hip[leg];
-        *LEG(plant, asked[2], leg, lane) = *SIGN(plant, 2, leg, lane) * knee[leg];
+        const double angles[3] = {0.0, hip[leg], knee[leg]};
+        for (size_t j = 0; j < 3; j++)
+            *LEG(plant, asked[j], leg, lane) =
+                *NUMBER(plant, sign[j], leg, lane) *
+                angles[angle_of(*NUMBER(plant, angle[j], leg, lane))];
     }
 }
 
@@ -328,6 +336,7 @@ static double stable_step_in(void *plant, int32_t lane) {
     p.robot = &robot;
     p.trunk = &upright;
     p.contacts = 0;
+    p.any_axes = h->any_axes;
     return step_of_springs(&p);
 }
 
@@ -365,21 +374,22 @@ void plant_sample(const void *plant, int32_t lane, double *sample) {
                              *TRUNK(p, xd.x, lane), *TRUNK(p, xd.y, lane),  *TRUNK(p, xd.z, lane)};
     memcpy(sample, trunk, sizeof trunk);
     sample += 9;
-    /* joints may turn the other way in the tree, so angles, speeds and torques change sign */
+    /* joints may turn the other way and stand in another order in the tree */
     static const struct {
         size_t place;
-        int turns;
-    } channel[6] = {{PLACE_OF(leg_state, q), 1},      {PLACE_OF(leg_state, qd), 1},
-                    {PLACE_OF(leg_state, torque), 1}, {PLACE_OF(leg_state, work), 0},
-                    {PLACE_OF(leg_state, foot), 0},   {PLACE_OF(leg_state, force), 0}};
+        int turns, each; /* 1: changes sign with the joint, has a number per joint */
+    } channel[6] = {{PLACE_OF(leg_state, q), 1, 1},      {PLACE_OF(leg_state, qd), 1, 1},
+                    {PLACE_OF(leg_state, torque), 1, 1}, {PLACE_OF(leg_state, work), 0, 1},
+                    {PLACE_OF(leg_state, foot), 0, 0},   {PLACE_OF(leg_state, force), 0, 0}};
     for (int32_t leg = 0; leg < legs; leg++) {
         const double *first = leg_at(p, h->state, NUMBERS_OF(leg_state), leg, lane);
-        const double *sign = SIGN(p, 0, leg, lane);
+        const double *sign = NUMBER(p, sign, leg, lane), *angle = NUMBER(p, angle, leg, lane);
         for (size_t k = 0; k < 6; k++) {
             const double *from = first + channel[k].place * width;
             double *to = sample + k * each + 3 * (size_t)leg;
             for (size_t j = 0; j < 3; j++)
-                to[j] = (channel[k].turns ? sign[j * width] : 1.0) * from[j * width];
+                to[channel[k].each ? angle_of(angle[j * width]) : (int)j] =
+                    (channel[k].turns ? sign[j * width] : 1.0) * from[j * width];
         }
         sample[6 * each + (size_t)leg] = first[PLACE_OF(leg_state, reading) * width];
     }
@@ -393,8 +403,8 @@ void plant_accelerations(const void *plant, int32_t lane, double *accelerations)
     memcpy(accelerations, trunk, sizeof trunk);
     for (int32_t leg = 0; leg < ((const plant_header *)plant)->legs; leg++)
         for (size_t j = 0; j < 3; j++)
-            accelerations[6 + 3 * leg + (int32_t)j] =
-                *SIGN(p, j, leg, lane) * *LEG(p, qdd[j], leg, lane);
+            accelerations[6 + 3 * leg + angle_of(*NUMBER(p, angle[j], leg, lane))] =
+                *NUMBER(p, sign[j], leg, lane) * *LEG(p, qdd[j], leg, lane);
 }
 
 double plant_foot_mass(const void *plant, int32_t lane) {

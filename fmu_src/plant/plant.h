@@ -43,8 +43,17 @@ typedef struct {
     double stop_damping;   /* [N m s/rad] torque per speed there */
 } plant_joint;
 
-/* A leg: abduction about x, hip and knee about y. All vectors are in axes parallel to the trunk's.
- */
+/* Joints of a leg from the trunk outward. In the straight pose all links hang down. */
+enum {
+    PLANT_ABDUCTION = 0, /* abduction about x, hip about y, knee about y */
+    PLANT_HIP = 1,       /* hip about y, abduction about x, knee about y */
+    PLANT_COXA = 2       /* coxa about z, then femur and tibia about the axis across the leg, about
+                            which a positive turn lifts a femur. The hip angle turns the coxa, the
+                            knee angle the femur, and the tibia is held as the abduction is. */
+};
+
+/* A leg. All vectors are in axes parallel to the trunk's in the straight pose. The joints of the
+ * links hip, femur and tibia are those of its kind. */
 typedef struct {
     double mount[3];        /* [m] abduction joint, in the trunk frame */
     double hip[3];          /* [m] from the abduction axis to the hip axis */
@@ -53,11 +62,14 @@ typedef struct {
     double femur_angle;     /* [rad] reference pose, back of vertical */
     double tibia_angle;     /* [rad] reference pose, forward of the femur */
     plant_body link[3];     /* hip, femur, tibia; each frame lies at its joint */
-    plant_joint joint[3];   /* abduction, hip, knee */
+    plant_joint joint[3];   /* in the order of the joint angles: abduction, hip, knee */
     double foot_radius;     /* [m] of the foot ball; NaN: as the contact of the robot has it */
     double abduction_angle; /* [rad] reference pose, the foot to the left */
     int32_t knee_in_front;  /* 1: the knee lies in front of the line from hip to foot, and a
                                positive angle turns the tibia back; 0: the other way */
+    int32_t kind;           /* PLANT_ABDUCTION ... PLANT_COXA */
+    int32_t locked[3];      /* joints from the trunk outward; 1: it does not exist */
+    double pointing;        /* [rad] PLANT_COXA: where the leg points, about z from x */
 } plant_leg;
 
 /* A geared position servo, that of every joint that has no numbers of its own. */
@@ -209,7 +221,8 @@ int32_t plant_intact(const void *memory, int32_t kind, int32_t level, int32_t le
  * every leg as joint angles [rad], 6 + 3 legs numbers. height: [m] by which the trunk starts
  * higher, if it is held. Ts: length of the coming ticks [s]; before the start, the start pose
  * counts as commanded once per tick. All robots of a plant share one latency and one sensor delay:
- * those of the robot that was placed last. */
+ * those of the robot that was placed last. They also share one set of equations: next to a robot
+ * with a leg of another kind than PLANT_ABDUCTION, the last bits of the others change. */
 void plant_place(void *plant, int32_t lane, const plant_robot *robot, const plant_ground *ground,
                  uint64_t seed, const double *coordinates, double height, double Ts);
 
@@ -286,7 +299,7 @@ void plant_forces(const plant_robot *robot, const plant_ground *ground, const do
 int32_t plant_fallen(const plant_robot *robot, const plant_ground *ground, const double *q,
                      double *found);
 
-/* Write hip pivot, knee pivot and foot of a leg in the trunk frame [m], 9 numbers. */
+/* Write second joint, third joint and foot of a leg in the trunk frame [m], 9 numbers. */
 void plant_leg_points(const plant_leg *leg, double abduction, double hip, double knee,
                       double *points);
 

@@ -1,7 +1,7 @@
 /* Numbers and state of a robot as the equations of motion need them, for any number of lanes.
  *
- * Coordinates are those of a tree: hip and knee turn about +y. They are the joint angles times
- * `sign`.
+ * Coordinates are those of a tree, from the trunk outward: usually abduction about +x, hip and knee
+ * about +y. They are the joint angles in the order of `angle`, times `sign`.
  * Structs of B hold what a robot has once, structs of V hold what every leg has. They contain
  * nothing else, so that a lane can be filled and read number by number. */
 #ifndef PLANT_ROBOT_H
@@ -42,15 +42,19 @@ typedef struct {
 
 /* Numbers of a leg. */
 typedef struct {
-    v3 mount;               /* [m] abduction joint in the trunk */
-    v3 hip;                 /* [m] from the abduction axis to the hip axis */
+    v3 mount;               /* [m] first joint in the trunk */
+    v3 hip;                 /* [m] from the first joint to the second */
     V femur, tibia;         /* [m] lengths */
     V femur_angle;          /* [rad] reference pose */
     V tibia_angle;          /* [rad] */
     V abduction_angle;      /* [rad] */
     V sign[3];              /* coordinate per joint angle: 1 or -1 */
+    V angle[3];             /* which joint angle: 0 abduction, 1 hip, 2 knee */
+    V free[3];              /* 1, or 0 for a locked joint */
+    v3 axis[3];             /* of the joints, where all links hang straight down */
+    V reference[3];         /* [rad] turns of the joints from there to the reference pose */
     v_inertia link[3];      /* links, about their joints, in their axes */
-    joint_numbers joint[3]; /* abduction, hip, knee; from here on plant_tune changes it */
+    joint_numbers joint[3]; /* from the trunk outward; from here on plant_tune changes it */
     V radius;               /* [m] of the foot ball */
 } leg_numbers;
 
@@ -65,7 +69,7 @@ typedef struct {
     B start[6];               /* [m], [rad] pose at the start */
 } trunk_state;
 
-/* State of a leg: abduction, hip, knee. */
+/* State of a leg, joints from the trunk outward. */
 typedef struct {
     V q[3], qd[3], qdd[3]; /* [rad], [rad/s], [rad/s^2] */
     V target[3];           /* [rad] target that the servo follows now */
@@ -104,6 +108,7 @@ typedef struct {
     int32_t legs;     /* number of legs */
     int32_t groups;   /* groups of legs; one per leg if the lanes are robots */
     int32_t contacts; /* most contact points of a foot; 0: planes only */
+    int32_t any_axes; /* 1: some joint turns about another axis than x, y, y */
     int32_t lanes;    /* number of robots */
 } plant_parts;
 

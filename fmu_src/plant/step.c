@@ -26,6 +26,7 @@ static plant_parts posed(step_room *room, const plant_robot *robot) {
     p.kept = room->kept;
     p.legs = p.groups = robot->legs;
     p.lanes = 1;
+    p.any_axes = has_any_axes(robot);
     return p;
 }
 

@@ -39,11 +39,12 @@ static inline void step_response(const plant_parts *p, const trunk_motion *t, co
     B sum[SUMS], z[6];
     trunk_alone(p->robot, t, sum);
     for (int32_t g = 0; g < p->groups; g++) {
-        const leg_motion m = leg_moves(&p->leg[g], none, none, still, still);
+        const leg_motion m = leg_moves(p->any_axes, &p->leg[g], none, none, still, still);
         const v3 force = about_x(m.c1, -m.s1, v_scale(forces[STEP_LAWS * g], up));
         const push ground = {force, v_cross(m.tibia, force), 0.0};
         V part[SUMS];
-        leg_inward(&p->leg[g], &m, none, forces + STEP_LAWS * g + 1, &ground, &p->kept[g], part);
+        leg_inward(p->any_axes, &p->leg[g], &m, none, forces + STEP_LAWS * g + 1, &ground,
+                   &p->kept[g], part);
         add_up(p, g, sum, part, SUMS);
     }
     add_linear_part(sum);
@@ -53,8 +54,8 @@ static inline void step_response(const plant_parts *p, const trunk_motion *t, co
         V *joints = response + STEP_LAWS * g + 1;
         leg_outward(&p->kept[g], z, joints);
         /* at rest, accelerations obey the same relations as speeds */
-        const leg_motion m =
-            leg_moves(&p->leg[g], none, joints, (v3){z[0], z[1], z[2]}, (v3){z[3], z[4], z[5]});
+        const leg_motion m = leg_moves(p->any_axes, &p->leg[g], none, joints,
+                                       (v3){z[0], z[1], z[2]}, (v3){z[3], z[4], z[5]});
         const v3 foot = v_add(m.third.v, v_cross(m.third.w, m.tibia));
         response[STEP_LAWS * g] = v_dot(about_x(m.c1, m.s1, foot), up);
     }

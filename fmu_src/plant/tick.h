@@ -104,7 +104,7 @@ INL void measure(const plant_parts *p, const plant_ground *const *grounds, const
     const B stopping = dt * p->robot->per_foot_mass;
     for (int32_t g = 0; g < p->groups; g++) {
         leg_state *s = &p->state[g];
-        const leg_motion m = leg_moves(&p->leg[g], s->q, s->qd, w, v);
+        const leg_motion m = leg_moves(p->any_axes, &p->leg[g], s->q, s->qd, w, v);
         const push ground = push_of_ground(p, grounds, t, &p->leg[g], &m, g, stopping);
         for (int j = 0; j < 3; j++)
             s->torque[j] =

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from full_robot import full_robot
 from grounds import WALKED
+from made_up_robots import every_chain
 from odd_robot import odd_robot
 from plants import AnyPlant
 
@@ -76,7 +77,8 @@ def test_on_every_ground_the_robot_moves_as_in_exudyn(ground: Ground) -> None:
 
 
 @pytest.mark.parametrize(
-    "robot", [load_robot("hexapod"), load_robot("octopod"), odd_robot(), full_robot()]
+    "robot",
+    [load_robot("hexapod"), load_robot("octopod"), odd_robot(), full_robot(), every_chain()],
 )
 def test_every_robot_moves_as_in_exudyn(robot: RobotDescription) -> None:
     assert_same(robot)
@@ -114,7 +116,9 @@ def test_conditions_that_change_on_the_way_are_those_of_exudyn() -> None:
         assert apart(*plants, FORCES) < 1e-9
 
 
-@pytest.mark.parametrize("robot", [ROBOT, LATE, load_robot("hexapod"), odd_robot(), full_robot()])
+@pytest.mark.parametrize(
+    "robot", [ROBOT, LATE, load_robot("hexapod"), odd_robot(), full_robot(), every_chain()]
+)
 @pytest.mark.parametrize("ground", [Plane(slope=0.05), Obstacles(roughness=0.5)], ids=repr)
 def test_legs_side_by_side_have_the_bits_of_one_after_the_other(
     robot: RobotDescription, ground: Ground

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from full_robot import full_robot
+from made_up_robots import every_chain
 from odd_robot import odd_robot
 from scipy.spatial.transform import Rotation
 
@@ -22,7 +23,7 @@ mujoco: Any = pytest.importorskip("mujoco")
 
 from mujoco_models.tree import export_mjcf  # noqa: E402
 
-ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot(), full_robot()]
+ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot(), full_robot(), every_chain()]
 LILIBOT = ROBOTS[0]
 
 
@@ -33,7 +34,12 @@ def robot(request: pytest.FixtureRequest) -> RobotDescription:
 
 def servos_of(robot: RobotDescription) -> list[Servo]:
     """The servos of all joints, in the order of the model."""
-    return [robot.servo_of(leg, joint) for leg in robot.legs for joint in JOINTS]
+    return [
+        robot.servo_of(leg, JOINTS[link.angle])
+        for leg in robot.legs
+        for link in links_of(leg)
+        if not link.locked
+    ]
 
 
 def loaded(robot: RobotDescription, **options: str) -> Any:
@@ -74,7 +80,12 @@ def test_feet_are_where_ours_are_at_any_pose(robot: RobotDescription) -> None:
         rows = Rotation.from_euler("ZYX", rpy[::-1]).as_matrix()
         data.qpos[:3] = place
         mujoco.mju_mat2Quat(data.qpos[3:7], rows.ravel())
-        data.qpos[7:] = angles.ravel()
+        links = [link for leg in robot.legs for link in links_of(leg)]
+        for k, link in enumerate(links):
+            angles[k // 3, link.angle] *= not link.locked
+        data.qpos[7:] = [
+            angles[k // 3, link.angle] for k, link in enumerate(links) if not link.locked
+        ]
         mujoco.mj_kinematics(model, data)
         feet = place + Kinematics(robot).feet(angles) @ rows.T
         for leg, foot in zip(robot.legs, feet, strict=True):
@@ -174,7 +185,9 @@ def test_no_part_of_it_touches_another(robot: RobotDescription) -> None:
 def test_limits_are_those_of_servos_and_stops_or_a_full_turn(robot: RobotDescription) -> None:
     model = loaded(robot)
     stalls = [(-servo.stall_torque, servo.stall_torque) for servo in servos_of(robot)]
-    stops = np.array([leg.stops for leg in robot.legs]).reshape(-1, 2)
+    stops = np.array(
+        [leg.stops[link.angle] for leg in robot.legs for link in links_of(leg) if not link.locked]
+    )
     stops = np.where(np.isfinite(stops), stops, [-np.pi, np.pi])
     np.testing.assert_array_equal(model.jnt_limited[1:], 1)
     np.testing.assert_array_equal(model.jnt_range[1:], stops)

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from full_robot import full_robot
+from made_up_robots import every_chain
 from odd_robot import odd_robot
 from unchecked import any_step
 
@@ -29,7 +30,7 @@ from mujoco_models.plant import Plant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
-ROBOTS = [ROBOT, load_robot("hexapod"), odd_robot(), full_robot()]
+ROBOTS = [ROBOT, load_robot("hexapod"), odd_robot(), full_robot(), every_chain()]
 
 
 def mass_matrices(robot: RobotDescription, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

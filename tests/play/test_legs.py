@@ -9,9 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from made_up_robots import every_chain
 from odd_robot import odd_robot
 
 from apnc_plant.kinematics import Kinematics
+from apnc_plant.robot import RobotDescription
 from play.numbers import chains_of
 
 SPACE = Path(__file__).resolve().parents[2] / "play" / "page" / "space.js"
@@ -19,8 +21,8 @@ NODE = shutil.which("node")
 
 
 @pytest.mark.skipif(NODE is None, reason="node is missing")
-def test_chains_are_those_of_the_plant(tmp_path: Path) -> None:
-    robot = odd_robot()
+@pytest.mark.parametrize("robot", [odd_robot(), every_chain()], ids=lambda robot: robot.name)
+def test_chains_are_those_of_the_plant(robot: RobotDescription, tmp_path: Path) -> None:
     angles = np.random.default_rng(2).uniform(-0.5, 0.5, (len(robot.legs), 3))
     shutil.copy(SPACE, tmp_path / "space.mjs")
     program = f"""

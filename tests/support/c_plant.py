@@ -8,7 +8,7 @@ import math
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import cffi
 import numpy as np
@@ -191,6 +191,22 @@ def random_robot(seed: int, legs: int, **sections: Any) -> Numbers:
     return robot_of(changed(random_fields(np.random.default_rng(seed), legs), **sections))
 
 
+def with_chains(fields: Fields, seed: int) -> dict[str, Any]:
+    """The robot with legs of every kind, some of them of two joints."""
+    own, kinds = np.random.default_rng(seed + 1000), []
+    for k, leg in enumerate(fields["leg"]):
+        kind, locked = (2 + k + seed) % 3, [0, 0, 0]
+        locked[2 if kind == lib().PLANT_COXA else kind] = int((k + seed) % 5 == 4)
+        kinds.append(leg | {"kind": kind, "locked": locked, "pointing": own.uniform(-3.0, 3.0)})
+    return {**fields, "leg": kinds}
+
+
+def mixed_robot(seed: int, legs: int, **sections: Any) -> Numbers:
+    """A random robot with legs of every kind, see ``with_chains``."""
+    fields = changed(random_fields(np.random.default_rng(seed), legs), **sections)
+    return robot_of(with_chains(fields, seed))
+
+
 def soft_robot(seed: int, legs: int, **sections: Any) -> Numbers:
     """A random robot with all knees to one side and no leg sprawled, which lands more softly."""
     fields = changed(random_fields(np.random.default_rng(seed), legs), **sections)
@@ -334,7 +350,8 @@ class CPlant:
         """Of the coordinates of the tree, shape (6 + 3 legs,)."""
         found = np.zeros(6 + 3 * self.legs)
         self.lib.plant_accelerations(self.memory, lane, pointer(found))
-        found[6:] *= signs(self._kept[lane][0].at).ravel()
+        robot = self._kept[lane][0].at
+        found[6:] = in_tree(robot, found[6:].reshape(-1, 3)).ravel()
         return found
 
     def put(self, q: np.ndarray, v: np.ndarray, lane: int = 0) -> None:
@@ -358,10 +375,49 @@ class CPlant:
         ffi().buffer(self.memory, self.size)[:] = saved
 
 
-def signs(robot: Any) -> np.ndarray:
-    """Coordinates of the tree per joint angle of a ``plant_robot``, shape (legs, 3)."""
-    flexes = [1.0 if robot.leg[k].knee_in_front else -1.0 for k in range(robot.legs)]
-    return np.array([[1.0, -1.0, flex] for flex in flexes])
+class Joint(NamedTuple):
+    """A joint of a leg: its axis and its turn to the reference pose, its angle and sign of that."""
+
+    axis: tuple[float, float, float]
+    turn: float
+    angle: int
+    sign: float
+
+
+X, Y, Z = np.eye(3)
+
+
+def joints_of(leg: Any) -> tuple[Joint, Joint, Joint]:
+    """Joints of a ``plant_leg`` from the trunk outward, written from its description."""
+    side, flexes = (-1.0 if leg.mount[1] < 0.0 else 1.0), (1.0 if leg.knee_in_front else -1.0)
+    abduction = Joint(X, leg.abduction_angle, 0, 1.0)
+    hip = Joint(Y, leg.femur_angle, 1, -1.0)
+    knee = Joint(Y, -leg.tibia_angle, 2, flexes)
+    if leg.kind == lib().PLANT_ABDUCTION:
+        return abduction, hip, knee
+    if leg.kind == lib().PLANT_HIP:
+        return hip, abduction, knee
+    across = np.cross([math.cos(leg.pointing), math.sin(leg.pointing), 0.0], Z)
+    femur = Joint(across, leg.femur_angle, 2, 1.0)
+    return Joint(Z, 0.0, 1, -side), femur, Joint(across, -leg.tibia_angle, 0, side)
+
+
+def in_tree(robot: Any, angles: np.ndarray, *, signed: bool = True) -> np.ndarray:
+    """Coordinates of the tree, shape (legs, 3), from joint angles, shape (legs, 3)."""
+    found = np.zeros((robot.legs, 3))
+    for k, own in enumerate(angles):
+        for j, joint in enumerate(joints_of(robot.leg[k])):
+            found[k, j] = (joint.sign if signed else 1.0) * own[joint.angle]
+    return found
+
+
+def by_angle(robot: Any, tree: np.ndarray, *, signed: bool = True) -> np.ndarray:
+    """Joint angles, shape (legs, 3), from coordinates of the tree, flat or not."""
+    found = np.zeros((robot.legs, 3))
+    for k, own in enumerate(np.reshape(tree, (-1, 3))):
+        for j, joint in enumerate(joints_of(robot.leg[k])):
+            found[k, joint.angle] = (joint.sign if signed else 1.0) * own[j]
+    return found
 
 
 def trot(legs: int, tick: int, size: float = 1.0) -> tuple[np.ndarray, np.ndarray]:

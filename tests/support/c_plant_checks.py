@@ -15,18 +15,21 @@ from c_plant import (
     TICK,
     CPlant,
     Numbers,
+    by_angle,
     changed,
     ffi,
+    in_tree,
     kerb,
+    mixed_robot,
     obstacles,
     plane,
     random_fields,
     random_robot,
     robot_of,
     same_bits,
-    signs,
     trot,
     waves,
+    with_chains,
     with_joints,
 )
 from rigid_body import BASE, Expected, Joints, RigidBody
@@ -63,12 +66,18 @@ def random_motion(random: np.random.Generator, legs: int) -> tuple[np.ndarray, n
     return q, random.uniform(-3.0, 3.0, q.size)
 
 
+def _robot(seed: int, legs: int, mixed: bool, **sections: Any) -> Numbers:
+    """A random robot, for every other seed one whose joints have numbers of their own."""
+    fields = changed(random_fields(np.random.default_rng(seed), legs), **sections)
+    fields = with_joints(fields, seed) if seed % 2 else fields
+    return robot_of(with_chains(fields, seed) if mixed else fields)
+
+
 def accelerations(lib: Any, legs: int = 3, seeds: range = range(4), **sections: Any) -> None:
     """In the air, at any speeds: bodies, rotors, gravity, servos and what the joints have."""
-    for seed in seeds:
+    for mixed, seed in itertools.product((False, True), seeds):
         random = np.random.default_rng(seed)
-        fields = changed(random_fields(np.random.default_rng(seed), legs), **sections)
-        robot = robot_of(with_joints(fields, seed) if seed % 2 else fields)
+        robot = _robot(seed, legs, mixed, **sections)
         plant, body = CPlant(legs, library=lib), RigidBody(robot.at)
         plant.place(robot, plane())
         q, v = random_motion(random, legs)
@@ -94,12 +103,11 @@ def grounds() -> dict[str, Numbers]:
     }
 
 
-def _on_ground(lib: Any, ground: Numbers, seed: int, held: bool, norm: int) -> int:
+def _on_ground(lib: Any, ground: Numbers, seed: int, held: bool, norm: int, mixed: bool) -> int:
     """One step of a robot that moves on a ground; the feet that touched it."""
     legs, step, random = 5, 1 / 500, np.random.default_rng(seed)
     sensor = QUIET | {"norm": norm}
-    fields = changed(random_fields(np.random.default_rng(seed), legs), sensor=sensor)
-    robot = robot_of(with_joints(fields, seed) if seed % 2 else fields)
+    robot = _robot(seed, legs, mixed, sensor=sensor)
     body = RigidBody(robot.at)
     plant = CPlant(legs, library=lib, contacts=ground.at.contacts if ground.at.kind else 0)
     plant.place(robot, ground, clearance=-0.03)
@@ -122,7 +130,8 @@ def _on_ground(lib: Any, ground: Numbers, seed: int, held: bool, norm: int) -> i
     a = body.accelerations(then, v, acting.force)
     close(plant.accelerations(), a, 1e-11)
     work = plant.sample()["work"].ravel() - before
-    close(work, np.abs(acting.torque * v[BASE:]) * step)
+    done = np.abs(acting.torque * v[BASE:]) * step
+    close(work, by_angle(robot.at, done, signed=False).ravel())
     v = v + 0.5 * step * a
     shown(plant, expected(lib, body, ground, then, v, target, **there), then, v, norm)
     return int((acting.load > 0.0).sum())
@@ -130,13 +139,13 @@ def _on_ground(lib: Any, ground: Numbers, seed: int, held: bool, norm: int) -> i
 
 def shown(plant: CPlant, acting: Expected, q: np.ndarray, v: np.ndarray, norm: int) -> None:
     """Every signal of a sample is what its name says."""
-    sample, sign = plant.sample(), signs(acting.robot)
+    sample, robot = plant.sample(), acting.robot
     close(sample["position"], q[:3])
     close(sample["rpy"], q[[5, 4, 3]])
     close(sample["velocity"], v[:3])
-    close(sample["angle"], q[BASE:].reshape(-1, 3) * sign)
-    close(sample["speed"], v[BASE:].reshape(-1, 3) * sign)
-    close(sample["torque"], acting.torque.reshape(-1, 3) * sign)
+    close(sample["angle"], by_angle(robot, q[BASE:]))
+    close(sample["speed"], by_angle(robot, v[BASE:]))
+    close(sample["torque"], by_angle(robot, acting.torque))
     close(sample["foot"], acting.foot)
     close(sample["force"], acting.push, 1e-11)
     load = np.linalg.norm(acting.push, axis=1) if norm else acting.load
@@ -163,17 +172,27 @@ def foot_mass_at(body: RigidBody, q: np.ndarray, slope: float) -> float:
 def forces(lib: Any) -> None:
     """On every ground, held and free: contact, friction, suspension, work, every signal."""
     for ground in grounds().values():
-        touching = 0
-        for seed in range(10, 16):
-            touching += _on_ground(lib, ground, seed, held=bool(seed % 2), norm=int(seed % 3 == 0))
-        assert touching >= 8
+        for mixed in (False, True):
+            touching = 0
+            for seed in range(10, 16):
+                held, norm = bool(seed % 2), int(seed % 3 == 0)
+                touching += _on_ground(lib, ground, seed, held, norm, mixed)
+            assert touching >= 8
 
 
 def motion(lib: Any) -> None:
     """Ticks of trot with late, slow commands and a damaged leg, against Velocity Verlet here."""
     legs, damaged, steps = 4, 2, 7
-    latency, slew, step = 0.02, 3.0, TICK / steps
-    robot = random_robot(21, legs, sensor=QUIET, servo={"latency": latency, "slew_rate": slew})
+    latency, slew = 0.02, 3.0
+    of = {"sensor": QUIET, "servo": {"latency": latency, "slew_rate": slew}}
+    for robot in (random_robot(21, legs, **of), mixed_robot(21, legs, **of)):
+        _motion(lib, robot, damaged, latency, slew, steps)
+
+
+def _motion(
+    lib: Any, robot: Numbers, damaged: int, latency: float, slew: float, steps: int
+) -> None:
+    legs, step = robot.at.legs, TICK / steps
     body, ground = RigidBody(robot.at), plane()
     plant = CPlant(legs, library=lib, delay=latency)
     plant.place(robot, ground, clearance=0.002, angles=(0.0, 0.1, -0.1))
@@ -189,7 +208,7 @@ def motion(lib: Any) -> None:
     a = at(0.0)
     for tick in range(6):
         hip, knee = trot(legs, tick)
-        wanted = np.column_stack([np.zeros(legs), hip, knee]) * signs(robot.at)
+        wanted = in_tree(robot.at, np.column_stack([np.zeros(legs), hip, knee]))
         wanted[damaged] = 0.0
         sent = np.clip(wanted.ravel(), sent - slew * TICK, sent + slew * TICK)
         coming.append((tick * TICK + latency, sent))
@@ -357,8 +376,8 @@ def again(lib: Any) -> None:
 
 def lanes(lib: Any) -> None:
     """Different robots side by side, on different grounds, are those that they are alone."""
-    for kind, level in kinds(lib):
-        for lane in side_by_side(lib, kind, level, 5, list(grounds().values()), ticks=12):
+    for (kind, level), robot in itertools.product(kinds(lib), (odd_lane, mixed_lane)):
+        for lane in side_by_side(lib, kind, level, 5, list(grounds().values()), 12, robot):
             assert lane.same, f"kind {kind}, {lib.plant_level_name(level)}"
 
 
@@ -403,6 +422,11 @@ def odd_lane(lane: int, legs: int) -> Numbers:
     """A robot like no other."""
     fields = changed(random_fields(np.random.default_rng(lane), legs), **LATE)
     return robot_of(with_joints(fields, lane) if lane % 2 else fields)
+
+
+def mixed_lane(lane: int, legs: int) -> Numbers:
+    """A robot like no other, with legs of every kind."""
+    return _robot(lane, legs, True, **LATE)
 
 
 def side_by_side(

@@ -6,6 +6,33 @@ import math
 from dataclasses import replace
 
 from apnc_plant.robot import Body, Leg, RobotDescription, load_robot
+from apnc_plant.robot.model import CHAINS
+
+
+def chained(chain: tuple[str, ...], name: str = "lilibot") -> RobotDescription:
+    """A shipped robot with other joints in its legs, which stand a little apart from each other."""
+    robot, pose = load_robot(name), {}
+    if chain[0] == "coxa":
+        pose = {"femur_angle": math.radians(110.0), "tibia_angle": math.radians(105.0)}
+        pose |= {"hip_offset": (0.0, 0.03, 0.0)}
+    legs = []
+    for k, leg in enumerate(robot.legs):
+        own = {"pointing": 0.2 - 0.1 * k} if chain[0] == "coxa" else {"abduction_angle": 0.05 * k}
+        legs.append(replace(leg, chain=chain, **pose, **own))
+    return replace(robot, name=f"{name} with {'-'.join(chain)}", legs=tuple(legs))
+
+
+def every_chain() -> RobotDescription:
+    """A robot of six legs with joints of every chain, at about the same height."""
+    robot, legs = load_robot("hexapod"), []
+    for k, leg in enumerate(robot.legs):
+        chain = (*CHAINS, CHAINS[3])[k]
+        own: dict[str, object] = {"abduction_angle": 0.05 * k}
+        if chain[0] == "coxa":
+            own = {"pointing": 0.3 * (k - 4), "hip_offset": (0.0, 0.03, 0.0)}
+            own |= {"femur_angle": math.radians(80.0), "tibia_angle": math.radians(70.0)}
+        legs.append(replace(leg, chain=chain, **own))
+    return replace(robot, name="every chain", legs=tuple(legs))
 
 
 def stiff_kneed() -> RobotDescription:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from c_plant import joints_of
 
 from apnc_core.types import Array
 
@@ -17,17 +18,15 @@ pin = pytest.importorskip("pinocchio", reason="pinocchio is missing (PyPI packag
 
 BASE = 6
 
+LOCKED = 1e15
+"""Rotor inertia that keeps a joint from moving [kg m^2]."""
+
 
 def _inertia(body: Any) -> Any:
     xx, yy, zz, xy, xz, yz = body.inertia
     return pin.Inertia(
         body.mass, np.array(list(body.com)), np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     )
-
-
-def _about_x(angle: float) -> Array:
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
 def _about_y(angle: float) -> Array:
@@ -59,19 +58,19 @@ class RigidBody:
             joint = model.addJoint(joint, kind, here, name)
         model.appendBodyToJoint(joint, _inertia(robot.trunk), here)
         self.feet = [self._add_leg(joint, k) for k in range(robot.legs)]
-        rotors = Joints(robot).reflected_inertia
-        model.armature = np.concatenate([np.zeros(BASE), rotors])
+        armature = np.concatenate([np.zeros(BASE), Joints(robot).reflected_inertia])
+        locked = np.ravel([list(robot.leg[k].locked) for k in range(robot.legs)])
+        armature[BASE:][locked == 1] = LOCKED
+        model.armature = armature
         self.data = model.createData()
 
     def _add_leg(self, trunk: int, k: int) -> int:
         leg, model, joint = self.robot.leg[k], self.model, trunk
-        turns = (
-            _about_x(leg.abduction_angle), _about_y(leg.femur_angle), _about_y(-leg.tibia_angle)
-        )  # fmt: skip
         places = (list(leg.mount), list(leg.hip), [0.0, 0.0, -leg.femur])
-        kinds = (pin.JointModelRX(), pin.JointModelRY(), pin.JointModelRY())
-        for i, (kind, place, turn) in enumerate(zip(kinds, places, turns, strict=True)):
+        for i, (own, place) in enumerate(zip(joints_of(leg), places, strict=True)):
+            turn = pin.AngleAxis(own.turn, own.axis).matrix()
             at = pin.SE3(turn, np.array(place))
+            kind = pin.JointModelRevoluteUnaligned(own.axis)
             joint = model.addJoint(joint, kind, at, f"{k}.{i}")
             model.appendBodyToJoint(joint, _inertia(leg.link[i]), pin.SE3.Identity())
         below = pin.SE3(np.eye(3), np.array([0.0, 0.0, -leg.tibia]))
@@ -123,7 +122,8 @@ class Joints:
     """
 
     def __init__(self, robot: Any) -> None:
-        joints = [robot.leg[k].joint[j] for k in range(robot.legs) for j in range(3)]
+        chains = [(robot.leg[k], own) for k in range(robot.legs) for own in joints_of(robot.leg[k])]
+        joints = [leg.joint[own.angle] for leg, own in chains]
 
         def each(key: str) -> Array:
             return np.array([getattr(joint, key) for joint in joints])
@@ -134,9 +134,7 @@ class Joints:
         for key in ("joint_damping", "dry_friction", "friction_speed", "stop_stiffness"):
             setattr(self, key, each(key))
         self.stop_damping = each("stop_damping")
-        # hip, and knee behind the line from hip to foot: minus the joint angle
-        front = [robot.leg[k].knee_in_front for k in range(robot.legs)]
-        turned = np.array([[False, True, not in_front] for in_front in front]).ravel()
+        turned = np.array([own.sign < 0.0 for _, own in chains])  # minus the joint angle
         low, high = each("low"), each("high")
         self.low, self.high = np.where(turned, -high, low), np.where(turned, -low, high)
 

@@ -6,12 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from made_up_robots import every_chain
 from odd_robot import odd_robot
 from records import FEMUR, TIBIA, synthetic_record
 from scipy.spatial.transform import Rotation
 
 from apnc.report.skeleton import leg_chains, trunk_corners, trunk_rotation
 from apnc_plant.kinematics import Kinematics
+from apnc_plant.robot import RobotDescription
 
 
 def test_knees_close_the_legs() -> None:
@@ -68,8 +70,9 @@ def test_abduction_turns_the_leg_about_the_axis_ahead() -> None:
         np.testing.assert_allclose(found, expected, atol=1e-12)
 
 
-def test_legs_of_every_kind_are_drawn_where_the_plant_has_them() -> None:
-    robot, angles = odd_robot(), np.random.default_rng(1).uniform(-0.5, 0.5, (4, 3))
+@pytest.mark.parametrize("robot", [odd_robot(), every_chain()], ids=lambda robot: robot.name)
+def test_legs_of_every_kind_are_drawn_where_the_plant_has_them(robot: RobotDescription) -> None:
+    angles = np.random.default_rng(1).uniform(-0.5, 0.5, (len(robot.legs), 3))
     points = [Kinematics(robot).points(k, *own) for k, own in enumerate(angles)]
     plant = {
         "position": np.zeros((1, 3)),

@@ -174,6 +174,21 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
             "trunk.outline[3] is 0; allowed: a finite number above 0 [m]",
         ),
         (
+            "tibia_angle = 92.0",
+            'tibia_angle = 92.0\nchain = ["hip", "coxa"]',
+            "chain is ['hip', 'coxa']; allowed: ['abduction', 'hip', 'knee'] or ",
+        ),
+        (
+            "tibia_angle = 92.0",
+            "tibia_angle = 92.0\npointing = 5.0",
+            "pointing is 5 deg and chain is ['abduction', 'hip', 'knee']; allowed with it: 0",
+        ),
+        (
+            "tibia_angle = 92.0",
+            'tibia_angle = 92.0\nabduction_angle = 5.0\nchain = ["coxa", "femur"]',
+            "abduction_angle is 5 deg and chain is ['coxa', 'femur']; allowed with it: 0",
+        ),
+        (
             'name = "RH"',
             'name = "RF"',
             "allowed: names that differ",

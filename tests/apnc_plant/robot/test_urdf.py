@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from full_robot import full_robot
+from made_up_robots import every_chain
 from odd_robot import odd_robot
 
 from apnc_plant.kinematics import Kinematics
@@ -18,7 +19,7 @@ from apnc_plant.robot.links import links_of
 from apnc_plant.robot.urdf import robot_urdf
 from apnc_plant.signals import JOINTS
 
-ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot(), full_robot()]
+ROBOTS = [load_robot("lilibot"), load_robot("hexapod"), odd_robot(), full_robot(), every_chain()]
 
 
 @pytest.fixture(params=ROBOTS, ids=lambda robot: robot.name)
@@ -48,13 +49,15 @@ def test_feet_are_where_ours_are_at_any_joint_angles(robot: RobotDescription) ->
     model = yourdfpy.URDF.load(io.BytesIO(robot_urdf(robot).encode()))
     random = np.random.default_rng(0)
     for angles in random.uniform(-1.5, 1.5, (5, len(robot.legs), 3)):
-        names = ("abduction", "hip", "knee")
+        joints = {
+            f"{leg.name}_{link.joint}": (k, link)
+            for k, leg in enumerate(robot.legs)
+            for link in links_of(leg)
+        }
+        for k, link in joints.values():
+            angles[k, link.angle] *= not link.locked
         model.update_cfg(
-            {
-                f"{leg.name}_{joint}": angle
-                for leg, own in zip(robot.legs, angles, strict=True)
-                for joint, angle in zip(names, own, strict=True)
-            }
+            {name: angles[k, link.angle] for name, (k, link) in joints.items() if not link.locked}
         )
         for leg, ours in zip(robot.legs, Kinematics(robot).feet(angles), strict=True):
             foot = model.get_transform(f"{leg.name}_foot", "trunk")[:3, 3]
@@ -65,10 +68,14 @@ def test_a_servo_is_the_limits_of_its_joint(robot: RobotDescription) -> None:
     yourdfpy = pytest.importorskip("yourdfpy")
     model = yourdfpy.URDF.load(io.BytesIO(robot_urdf(robot).encode()))
     moving = [joint for joint in model.joint_map.values() if joint.type != "fixed"]
-    assert len(moving) == 3 * len(robot.legs)
+    assert len(moving) == sum(len(leg.chain) for leg in robot.legs)
     for leg in robot.legs:
-        for name, stops in zip(JOINTS, leg.stops, strict=True):
-            joint, servo = model.joint_map[f"{leg.name}_{name}"], robot.servo_of(leg, name)
+        for link in links_of(leg):
+            joint = model.joint_map[f"{leg.name}_{link.joint}"]
+            if link.locked:
+                assert joint.type == "fixed"
+                continue
+            stops, servo = leg.stops[link.angle], robot.servo_of(leg, JOINTS[link.angle])
             assert joint.type == "revolute"
             found = (joint.limit.lower, joint.limit.upper)
             full = (-math.pi, math.pi)
@@ -86,7 +93,7 @@ def test_mujoco_reads_it_too(robot: RobotDescription) -> None:
     spec.compiler.fusestatic = False
     model = spec.compile()
     assert model.body_mass.sum() == pytest.approx(robot.mass, abs=1e-9)
-    assert model.njnt == 3 * len(robot.legs)
+    assert model.njnt == sum(len(leg.chain) for leg in robot.legs)
 
 
 def test_what_touches_are_boxes_of_trunk_and_upper_links_and_balls(

@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 from full_robot import full_robot
 from grounds import WALKED
+from made_up_robots import chained
 
 import apnc
 from apnc_plant.compiled import Plant as PlantInC
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Ground, Kerb, Plane
 from apnc_plant.robot import Leg, RobotDescription, load_robot
+from apnc_plant.robot.model import CHAINS
 from exudyn_models.plant import Plant as PlantInExudyn
 
 TICK = 1 / 60
@@ -32,7 +34,7 @@ its damping sets in over ``damping_depth``, so that force changes by 1e5 N per m
 """
 
 NOT_LEVEL = {"foot_force": 1e-8, "grf": 1e-8}
-"""On other grounds than the level plane feet touch down at more different speeds [N]."""
+"""With other legs or on other grounds than the level plane, feet touch down at more speeds [N]."""
 
 
 def trot(legs: int, tick: int) -> tuple[np.ndarray, np.ndarray]:
@@ -55,13 +57,16 @@ class Walk:
         robot: RobotDescription,
         ground: Ground | None = None,
         conditions: Conditions | None = None,
+        *,
+        other_legs: bool = False,
     ) -> None:
         """Walk, and compare every signal at every tick."""
         both = [
             engine(robot, 3, ground=ground, conditions=conditions)
             for engine in (PlantInExudyn, PlantInC)
         ]
-        bounds = BOUNDS if ground in (None, Plane()) else BOUNDS | NOT_LEVEL
+        usual = not other_legs and ground in (None, Plane())
+        bounds = BOUNDS if usual else BOUNDS | NOT_LEVEL
         worst = dict.fromkeys(BOUNDS, 0.0)
         self.loaded = 0.0
         for tick in range(round(10.0 / TICK)):
@@ -112,7 +117,12 @@ def test_with_other_knees_and_sprawled_it_walks_as_in_exudyn(stands: str) -> Non
     sprawled = tuple(
         replace(leg, abduction_angle=0.1 + 0.05 * k) for k, leg in enumerate(legs)
     )  # fmt: skip
-    Walk(replace(LILIBOT, legs=sprawled))
+    Walk(replace(LILIBOT, legs=sprawled), other_legs=True)
+
+
+@pytest.mark.parametrize("chain", CHAINS[1:], ids="-".join)
+def test_with_other_joints_it_walks_as_in_exudyn(chain: tuple[str, ...]) -> None:
+    Walk(chained(chain), other_legs=True)
 
 
 @pytest.mark.parametrize(

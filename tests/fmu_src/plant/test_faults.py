@@ -39,6 +39,19 @@ FAULTS = {
     "knees that all flex one way": Fault(
         "motion", "numbers.h", "leg->knee_in_front ? 1.0 : -1.0", "-1.0"
     ),
+    "Coriolis term of any axes forgotten": Fault(
+        "accelerations", "any_axes.h", "v_add(a.v, v_cross(moves.v, turns))", "a.v"
+    ),
+    "inertia of a link that is not turned": Fault(
+        "accelerations", "any_axes.h", "= vr_inertia(&m->link[1], &n->link[1])", "= n->link[1]"
+    ),
+    "joint that is not locked": Fault(
+        "accelerations", "numbers.h", "leg->locked[j] ? 0.0 : 1.0", "1.0"
+    ),
+    "coxa that swings back": Fault("forces", "numbers.h", "0.0, 1, -side)", "0.0, 1, side)"),
+    "output of the hip at the first joint": Fault(
+        "motion", "plant.c", "angles[angle_of(*NUMBER(plant, angle[j], leg, lane))]", "angles[j]"
+    ),
     "gravity upward": Fault(
         "accelerations", "dynamics.h", "s->xdd.z -= n->gravity;", "s->xdd.z += n->gravity;"
     ),
@@ -48,8 +61,8 @@ FAULTS = {
     "lever of the mount forgotten": Fault(
         "accelerations",
         "dynamics.h",
-        "const v3 moment = v_add(about_x(m->c1, m->s1, f1.n), v_cross(n->mount, force));",
-        "const v3 moment = about_x(m->c1, m->s1, f1.n);",
+        "const v3 moment = v_add(about_x(m->c1, m->s1, b.bias.n), v_cross(n->mount, force));",
+        "const v3 moment = about_x(m->c1, m->s1, b.bias.n);",
     ),
     "motor that drives beyond its speed": Fault(
         "accelerations", "servo.h", "stall * v_min(v_max(one - ratio, -one), one)", "stall"
