@@ -28,7 +28,7 @@ PARTS_OF_APNC = (
     ("loop",),
     ("feet",),
     ("features",),
-    ("many", "walking"),
+    ("gym_env", "many", "walking"),
     ("importing", "report", "system"),
     ("film", "studies", "view"),
     ("tune",),

@@ -85,6 +85,12 @@ def assert_trot(phases: list[float]) -> None:
     assert max(abs(phi - trot) for phi, trot in zip(phases, (3.14, 3.14, 0.0), strict=True)) < 0.6
 
 
+def gymnasium(lines: list[str]) -> None:
+    speeds = [numbers(line)[0] for line in lines]
+    assert len(speeds) == 6
+    assert speeds[-1] > 1.5 * speeds[0]
+
+
 FINDS = {
     "01_fmu_with_fmpy": fmu_with_fmpy,
     "02_walk_and_report": walk_and_report,
@@ -93,6 +99,7 @@ FINDS = {
     "05_learned_gait": learned_gait,
     "06_sweep": sweep,
     "07_foreign_mjcf": foreign_mjcf,
+    "08_gymnasium": gymnasium,
 }
 WRITES = {
     "02_walk_and_report": ["walk/report.html", "walk/summary.json", "walk/record.csv"],
