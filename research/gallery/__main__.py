@@ -29,7 +29,7 @@ app = typer.Typer(
     add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None, help=__doc__
 )
 
-Only = Annotated[Sequence[str], Option("--only", help="Name of a robot; may be given again.")]
+Only = Annotated[list[str] | None, Option("--only", help="Name of a robot; may be given again.")]
 Robots = Annotated[Path, Option("--robots", help="Folder of robot files.")]
 Workers = Annotated[int, Option("--workers", min=1, help="Number of threads or processes.")]
 PICTURES = DOCS / "pictures" / "robots"
@@ -38,11 +38,11 @@ PAGE = DOCS / "robots" / "gallery.md"
 
 @app.command("import")
 def read(
-    output: Annotated[Path, Option(help="Folder for the robot files.")], only: Only = ()
+    output: Annotated[Path, Option(help="Folder for the robot files.")], only: Only = None
 ) -> None:
     """Read every robot of the gallery from its model file."""
     writable(output)
-    for robot in robots(only):
+    for robot in robots(only or ()):
         path, version = model_of(robot)
         begin = time.perf_counter()
         try:
@@ -63,7 +63,7 @@ def tune(
     minutes: Annotated[float, Option(help="Longest search for each robot [min].")] = 10.0,
     seed: Annotated[int, Option(help="Of every search.")] = 1,
     workers: Workers = 2,
-    only: Only = (),
+    only: Only = None,
 ) -> None:
     """Tune robots by ``apnc tune``, one after the other. Those that are tuned already are kept."""
     writable(output)
@@ -94,7 +94,7 @@ def measure(
     robots_in: Robots,
     seeds: Annotated[int, Option(min=1, help="Walks at each MI with each controller.")] = 20,
     workers: Workers = 2,
-    only: Only = (),
+    only: Only = None,
 ) -> None:
     """Measure robots on fresh seeds; write docs/data/gallery.csv.gz and docs/data/gallery.json.
 
@@ -136,7 +136,7 @@ def measure(
 
 
 @app.command()
-def film(robots_in: Robots, only: Only = ()) -> None:
+def film(robots_in: Robots, only: Only = None) -> None:
     """Draw a film of every robot into docs/pictures/robots."""
     for robot in _there(robots_in, only):
         try:
@@ -159,15 +159,15 @@ def _show(progress: Progress, bar: TaskID, done: int, total: int) -> None:
     progress.update(bar, completed=done, total=total)
 
 
-def _there(folder: Path, only: Sequence[str]) -> list[GalleryRobot]:
+def _there(folder: Path, only: Sequence[str] | None) -> list[GalleryRobot]:
     """Robots of the gallery that have a file in a folder.
 
     Raises:
         ValueError: none has, or one that was named has not.
     """
-    found = [robot for robot in robots(only) if (folder / f"{robot.name}.toml").is_file()]
+    found = [robot for robot in robots(only or ()) if (folder / f"{robot.name}.toml").is_file()]
     if not found or (only and len(found) < len(set(only))):
-        raise ValueError(f"{folder} lacks {' '.join(only) or 'robots of the gallery'}")
+        raise ValueError(f"{folder} lacks {' '.join(only or ()) or 'robots of the gallery'}")
     return found
 
 

@@ -39,10 +39,17 @@ def test_a_package_or_file_that_is_missing_is_named(monkeypatch: pytest.MonkeyPa
         model_of(dog)
 
 
-def test_a_folder_without_robots_gives_one_line(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "research.gallery", "measure", "--robots", str(tmp_path)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+def gallery(*words: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "research.gallery", *words]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize(
+    ("only", "named"), [((), "robots of the gallery"), (("--only", "go1"), "go1")]
+)
+def test_a_folder_that_lacks_robots_gives_one_line(
+    only: tuple[str, ...], named: str, tmp_path: Path
+) -> None:
+    done = gallery("measure", "--robots", str(tmp_path), *only)
     assert done.returncode == 2
-    assert done.stderr.splitlines() == [
-        f"python -m research.gallery: {tmp_path} lacks robots of the gallery"
-    ]
+    assert done.stderr.splitlines() == [f"python -m research.gallery: {tmp_path} lacks {named}"]
