@@ -28,7 +28,7 @@ SHORTEST: Final = 1e-4
 """Shortest control tick [s] for which no delayed command or load is lost."""
 
 
-class Plant:
+class CompiledPlant:
     """One robot in plain C.
 
     At the start the robot is at rest and parallel to the ground, with its feet just above it. The

@@ -13,7 +13,7 @@ __all__ = ["Plant", "PlantError"]
 
 
 class Plant(Protocol):
-    """A robot on a ground, ready to be stepped; ``apnc_plant.compiled.Plant`` is one."""
+    """A robot on a ground, ready to be stepped; ``apnc_plant.compiled.CompiledPlant`` is one."""
 
     @property
     def legs(self) -> tuple[str, ...]:

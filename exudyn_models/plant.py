@@ -58,7 +58,7 @@ class ExudynTree(Engine):
         return np.array(self.solver.GetSystemMassMatrix())
 
 
-class Plant(LeggedPlant):
+class ExudynPlant(LeggedPlant):
     """One robot in its own Exudyn system; see :class:`LeggedPlant`."""
 
     engine = ExudynTree

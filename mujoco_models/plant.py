@@ -6,7 +6,7 @@ from apnc_plant.legged import LeggedPlant
 from mujoco_models.tree import MujocoTree
 
 
-class Plant(LeggedPlant):
+class MujocoPlant(LeggedPlant):
     """One robot in its own MuJoCo model; see :class:`LeggedPlant`."""
 
     engine = MujocoTree

@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Final
 from apnc.extras import missing
 
 if TYPE_CHECKING:
-    from apnc_plant.compiled import Plant
+    from apnc_plant.compiled import CompiledPlant
     from apnc_plant.legged import LeggedPlant
 
 COMPILED: Final = "compiled"
 """The robot in plain C."""
 
 ENGINES: Final = {
-    "exudyn": "exudyn_models.plant",
-    "mujoco": "mujoco_models.plant",
-    COMPILED: "apnc_plant.compiled",
+    "exudyn": ("exudyn_models.plant", "ExudynPlant"),
+    "mujoco": ("mujoco_models.plant", "MujocoPlant"),
+    COMPILED: ("apnc_plant.compiled", "CompiledPlant"),
 }
-"""Module of the plant in each engine."""
+"""Module and class of the plant in each engine."""
 
 OWN_ENGINE: Final = "exudyn"
 """The engine if none is named."""
@@ -40,7 +40,7 @@ def check_engine(name: str) -> None:
         raise ValueError(f"engine '{name}' is not one of {', '.join(ENGINES)}")
 
 
-def plant_in(engine: str) -> type[LeggedPlant | Plant]:
+def plant_in(engine: str) -> type[LeggedPlant | CompiledPlant]:
     """Class of the plant in an engine.
 
     Raises:
@@ -48,5 +48,6 @@ def plant_in(engine: str) -> type[LeggedPlant | Plant]:
     """
     if engine in EXTRAS and importlib.util.find_spec(engine) is None:
         raise ValueError(missing(engine, engine))
-    plant: type[LeggedPlant | Plant] = importlib.import_module(ENGINES[engine]).Plant
+    module, name = ENGINES[engine]
+    plant: type[LeggedPlant | CompiledPlant] = getattr(importlib.import_module(module), name)
     return plant

@@ -15,7 +15,7 @@ from plants import Kind, in_both
 from scipy.stats import kstest
 
 from apnc_plant.chance import LARGEST_SEED, checked_seed, side_offset
-from apnc_plant.compiled import Plant
+from apnc_plant.compiled import CompiledPlant
 from apnc_plant.library import library
 from apnc_plant.robot import load_robot
 
@@ -80,14 +80,14 @@ def test_other_seeds_are_refused_in_one_line(seed: object) -> None:
     with pytest.raises(ValueError, match=words):
         checked_seed(seed)
     with pytest.raises(ValueError, match=words):
-        Plant(ROBOT, seed)  # type: ignore[arg-type]
+        CompiledPlant(ROBOT, seed)  # type: ignore[arg-type]
 
 
 def test_any_whole_number_is_a_seed() -> None:
     assert checked_seed(np.int64(3)) == 3
-    last = Plant(ROBOT, LARGEST_SEED)
+    last = CompiledPlant(ROBOT, LARGEST_SEED)
     last.advance(np.zeros(4), np.zeros(4), 1 / 60)
-    assert (last.grf() != Plant(ROBOT, 0).grf()).any()
+    assert (last.grf() != CompiledPlant(ROBOT, 0).grf()).any()
 
 
 @in_both

@@ -12,12 +12,12 @@ from made_up_robots import every_chain
 from odd_robot import odd_robot
 from plants import AnyPlant
 
-from apnc_plant.compiled import KINDS, Plant
+from apnc_plant.compiled import KINDS, CompiledPlant
 from apnc_plant.conditions import Conditions, named_conditions
 from apnc_plant.ground import Ground, Obstacles, Plane
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
-from exudyn_models.plant import Plant as ExudynPlant
+from exudyn_models.plant import ExudynPlant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
@@ -39,7 +39,7 @@ FORCES = ("foot_force", "grf", "joint_torque")
 SPEEDS = ("velocity", "joint_speed")
 
 
-def apart(one: Plant, other: ExudynPlant, names: tuple[str, ...]) -> float:
+def apart(one: CompiledPlant, other: ExudynPlant, names: tuple[str, ...]) -> float:
     ours, theirs = one.sample(), other.sample()
     return max(float(np.abs(ours[name] - theirs[name]).max()) for name in names)
 
@@ -55,7 +55,7 @@ def assert_same(
 ) -> None:
     """Both plants do the same under the same commands, to rounding."""
     settings = {"ground": ground, "conditions": conditions, "options": options}
-    ours = Plant(robot, 3, **settings)  # type: ignore[arg-type]
+    ours = CompiledPlant(robot, 3, **settings)  # type: ignore[arg-type]
     theirs = ExudynPlant(robot, 3, **settings)  # type: ignore[arg-type]
     assert apart(ours, theirs, (*PLACES, *FORCES, *SPEEDS)) < 1e-12
     for tick in range(round(seconds / duration)):
@@ -103,7 +103,7 @@ def test_start_and_gravity_are_those_of_exudyn() -> None:
 
 
 def test_conditions_that_change_on_the_way_are_those_of_exudyn() -> None:
-    plants = Plant(ROBOT, 1), ExudynPlant(ROBOT, 1)
+    plants = CompiledPlant(ROBOT, 1), ExudynPlant(ROBOT, 1)
     for k, conditions in enumerate(
         (Conditions(damaged=("LH",)), Conditions(held_at=0.03, grf_noise=0.1), Conditions())
     ):
@@ -123,7 +123,7 @@ def test_conditions_that_change_on_the_way_are_those_of_exudyn() -> None:
 def test_legs_side_by_side_have_the_bits_of_one_after_the_other(
     robot: RobotDescription, ground: Ground
 ) -> None:
-    plants = [Plant(robot, 5, ground=ground, kind=kind) for kind in KINDS]
+    plants = [CompiledPlant(robot, 5, ground=ground, kind=kind) for kind in KINDS]
     for tick in range(120):
         for plant in plants:
             trot(plant, tick)
@@ -134,17 +134,17 @@ def test_legs_side_by_side_have_the_bits_of_one_after_the_other(
 
 def test_an_unknown_kind_is_named() -> None:
     with pytest.raises(ValueError, match="kind 'wings' is not one of legs, scalar"):
-        Plant(ROBOT, kind="wings")
+        CompiledPlant(ROBOT, kind="wings")
 
 
 def test_a_robot_of_one_leg_is_refused() -> None:
     middle = replace(ROBOT.legs[0], mount=(0.0, 0.0, 0.0))
     with pytest.raises(ValueError, match="robots of 2 to 64 legs"):
-        Plant(replace(ROBOT, legs=(middle,)))
+        CompiledPlant(replace(ROBOT, legs=(middle,)))
 
 
 def test_a_trace_has_a_row_a_tick() -> None:
-    plant = Plant(ROBOT, 2)
+    plant = CompiledPlant(ROBOT, 2)
     trace = plant.trace()
     samples = []
     for tick in range(5):

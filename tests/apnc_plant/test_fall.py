@@ -17,7 +17,7 @@ from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.signals import PlantError
-from exudyn_models.plant import Plant as ExudynPlant
+from exudyn_models.plant import ExudynPlant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")

@@ -12,7 +12,7 @@ from apnc_plant.forces import RobotForces
 from apnc_plant.ground import Ground, Obstacles, Plane
 from apnc_plant.ground.obstacles import TILE
 from apnc_plant.robot import load_robot
-from exudyn_models.plant import Plant
+from exudyn_models.plant import ExudynPlant
 
 ROBOT = load_robot("lilibot")
 UP = (0.0, 0.0, 1.0)
@@ -29,7 +29,7 @@ def test_the_apparent_mass_of_a_foot_on_a_heavy_trunk_is_its_rotors_over_their_l
     hip = knee + leg.femur_length * math.cos(leg.femur_angle)
     abduction = hip - leg.hip_offset[2]
     most = max(abduction**2, hip**2 + knee**2)
-    found = Plant(robot, ground=ground)._forces.foot_mass
+    found = ExudynPlant(robot, ground=ground)._forces.foot_mass
     assert found == pytest.approx(robot.servo.reflected_inertia / most, rel=1e-4)
 
 

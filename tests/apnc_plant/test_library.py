@@ -13,7 +13,7 @@ import pytest
 from compilers import run, tool
 
 from apnc_plant import library as binding
-from apnc_plant.compiled import Plant
+from apnc_plant.compiled import CompiledPlant
 from apnc_plant.library import aligned_memory, declarations, library
 from apnc_plant.robot import load_robot
 from build_fmu import compile as compiler
@@ -97,7 +97,7 @@ def test_threads_that_come_at_once_get_one_library(monkeypatch: pytest.MonkeyPat
 
 
 def test_while_c_runs_other_threads_run_too() -> None:
-    plant, done, counted = Plant(load_robot("lilibot")), threading.Event(), [0]
+    plant, done, counted = CompiledPlant(load_robot("lilibot")), threading.Event(), [0]
     zero = np.zeros(4)
 
     def count() -> None:

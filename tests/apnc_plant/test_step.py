@@ -13,13 +13,13 @@ from made_up_robots import heavy, stiff_kneed
 from plants import Kind, in_both
 from unchecked import any_step
 
-from apnc_plant.compiled import Plant
+from apnc_plant.compiled import CompiledPlant
 from apnc_plant.numbers import Numbers
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.signals import PlantError
 from apnc_plant.step import checked_step, longest_step, own_step, stable_step
-from mujoco_models.plant import Plant as MujocoPlant
+from mujoco_models.plant import MujocoPlant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
@@ -109,7 +109,7 @@ def test_the_limit_that_is_said_is_allowed() -> None:
 def test_a_robot_that_no_step_can_follow_is_refused() -> None:
     robot = replace(ROBOT, contact=replace(ROBOT.contact, stiffness=1e300))
     with pytest.raises(ValueError, match=r"'lilibot' are so stiff .* allowed: 1e-06 s and more$"):
-        Plant(robot)
+        CompiledPlant(robot)
 
 
 def hanging(speed_up: float, monkeypatch: pytest.MonkeyPatch) -> float:
@@ -124,7 +124,7 @@ def hanging(speed_up: float, monkeypatch: pytest.MonkeyPatch) -> float:
     servo = replace(ROBOT.servo, damping=2.0)
     robot = replace(ROBOT, contact=soft, servo=servo)
     step = speed_up * stable_step(robot)
-    plant = Plant(robot, options=PlantOptions(step=step, gravity=0.0, clearance=1.0))
+    plant = CompiledPlant(robot, options=PlantOptions(step=step, gravity=0.0, clearance=1.0))
     plant.advance(np.array([1e-6, 0.0, 0.0, 0.0]), np.zeros(4), step)
     for _ in range(400):
         plant.advance(np.zeros(4), np.zeros(4), step)

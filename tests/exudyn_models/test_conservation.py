@@ -9,7 +9,7 @@ from apnc_plant.coordinates import BASE
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.step import own_step
-from exudyn_models.plant import Plant
+from exudyn_models.plant import ExudynPlant
 
 TICK = 1 / 60
 GRAVITY = 9.81
@@ -17,7 +17,7 @@ ROBOT = load_robot("lilibot")
 ZERO = np.zeros(4)
 
 
-def energy(plant: Plant, robot: RobotDescription, gravity: float) -> float:
+def energy(plant: ExudynPlant, robot: RobotDescription, gravity: float) -> float:
     """Kinetic, potential and spring energy of joints and feet [J]."""
     m, q, v = plant._engine.mass_matrix(), plant._q, plant._v
     kinetic = v @ m @ v / 2.0
@@ -38,7 +38,7 @@ def test_without_losses_energy_is_conserved() -> None:
     )
     largest = []
     for step in (own_step(ROBOT), own_step(ROBOT) / 4):
-        plant = Plant(robot, options=PlantOptions(step=step, clearance=0.01))
+        plant = ExudynPlant(robot, options=PlantOptions(step=step, clearance=0.01))
         start, drift = energy(plant, robot, GRAVITY), 0.0
         for _ in range(120):
             plant.advance(ZERO, ZERO, 0.025)
@@ -51,7 +51,7 @@ def test_without_losses_energy_is_conserved() -> None:
 
 
 def test_damping_and_friction_take_energy_out() -> None:
-    plant = Plant(ROBOT, options=PlantOptions(clearance=0.01))
+    plant = ExudynPlant(ROBOT, options=PlantOptions(clearance=0.01))
     start = energy(plant, ROBOT, GRAVITY)
     for _ in range(60):
         plant.advance(ZERO, ZERO, TICK)
@@ -62,7 +62,7 @@ def test_damping_and_friction_take_energy_out() -> None:
 
 def momentum_error(step: float) -> float:
     """Largest difference between momentum and impulse over a second of trot [N s]."""
-    plant = Plant(ROBOT, options=PlantOptions(step=step))
+    plant = ExudynPlant(ROBOT, options=PlantOptions(step=step))
     impulse, worst = np.zeros(3), 0.0
     steps = round(TICK / step)
     for tick in range(60):

@@ -19,7 +19,7 @@ from apnc_plant.options import PlantOptions
 from apnc_plant.robot import load_robot
 from apnc_plant.step import own_step
 from exudyn_models.engine import exu, items
-from exudyn_models.plant import Plant, _solver_settings
+from exudyn_models.plant import ExudynPlant, _solver_settings
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
@@ -27,13 +27,13 @@ STEP = own_step(ROBOT)
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
 
 
-def trot(plant: Plant, tick: int, parts: int = 1) -> None:
+def trot(plant: ExudynPlant, tick: int, parts: int = 1) -> None:
     """A tick of a trot on fixed phases, in so many equal parts."""
     for _ in range(parts):
         step_of_trot(plant, tick, TICK / parts)
 
 
-def step_of_trot(plant: Plant, tick: int, duration: float) -> None:
+def step_of_trot(plant: ExudynPlant, tick: int, duration: float) -> None:
     hip = 0.13 * np.sin(0.12 * tick) * DIAGONAL - 0.111
     knee = 0.08 * np.cos(0.12 * tick) * DIAGONAL - 0.039
     plant.advance(hip, knee, duration)
@@ -101,7 +101,7 @@ def test_an_oscillator_keeps_its_energy_for_good() -> None:
 
 
 def test_free_fall_is_exact_at_the_default_step() -> None:
-    plant = Plant(ROBOT, options=PlantOptions(clearance=1.0))
+    plant = ExudynPlant(ROBOT, options=PlantOptions(clearance=1.0))
     start = plant.sample()["position"]
     for _ in range(18):
         plant.advance(np.zeros(4), np.zeros(4), TICK)
@@ -110,7 +110,7 @@ def test_free_fall_is_exact_at_the_default_step() -> None:
     np.testing.assert_allclose(plant.sample()["velocity"], [0.0, 0.0, -9.81 * 0.3], atol=1e-12)
 
 
-def steps_asked(plant: Plant, monkeypatch: pytest.MonkeyPatch) -> list[float]:
+def steps_asked(plant: ExudynPlant, monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Grows by the length of every step that the forces are asked for."""
     asked, evaluate = [], plant._forces._evaluate
 
@@ -124,7 +124,7 @@ def steps_asked(plant: Plant, monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
 
 def test_forces_are_asked_once_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
-    plant = Plant(ROBOT)
+    plant = ExudynPlant(ROBOT)
     asked = steps_asked(plant, monkeypatch)
     trot(plant, 0)
     assert asked == [STEP] * 16
@@ -140,7 +140,7 @@ def test_every_tick_is_cut_where_a_command_arrives_the_first_one_too(
     ticks: float, early: int, late: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # before the start the servos were told the start pose once a tick
-    plant = Plant(replace(ROBOT, servo=replace(ROBOT.servo, latency=ticks * TICK)))
+    plant = ExudynPlant(replace(ROBOT, servo=replace(ROBOT.servo, latency=ticks * TICK)))
     asked = steps_asked(plant, monkeypatch)
     part = ticks % 1.0
     for tick in range(4):
@@ -152,7 +152,7 @@ def test_every_tick_is_cut_where_a_command_arrives_the_first_one_too(
 
 
 def test_a_tick_is_the_sum_of_its_halves() -> None:
-    whole, halves = Plant(ROBOT), Plant(ROBOT)
+    whole, halves = ExudynPlant(ROBOT), ExudynPlant(ROBOT)
     trot(whole, 0)
     trot(halves, 0, parts=2)
     np.testing.assert_array_equal(whole._q, halves._q)
@@ -183,7 +183,7 @@ def test_loads_are_those_of_place_and_speed_at_the_end_of_the_tick() -> None:
 
 
 def test_momentum_changes_by_the_forces_that_act() -> None:
-    plant = Plant(ROBOT)
+    plant = ExudynPlant(ROBOT)
     size = len(plant._q)
     weight = np.array([0.0, 0.0, ROBOT.weight])
     impulse = np.zeros(3)

@@ -11,10 +11,10 @@ import pytest
 from apnc_plant.legged import LeggedPlant
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import load_robot
-from exudyn_models.plant import Plant
+from exudyn_models.plant import ExudynPlant
 
 ROBOT = load_robot("lilibot")
-PLANTS = (Plant, own_contact_exudyn.Plant)
+PLANTS = (ExudynPlant, own_contact_exudyn.Plant)
 TICK = 1 / 60
 
 

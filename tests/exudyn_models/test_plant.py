@@ -8,21 +8,21 @@ from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.step import own_step
 from exudyn_models.engine import exu
-from exudyn_models.plant import Plant
+from exudyn_models.plant import ExudynPlant
 
 TICK = 1 / 60
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
 ROBOT = load_robot("lilibot")
 
 
-def stand(robot: RobotDescription, seconds: float = 2.0) -> Plant:
-    plant = Plant(robot)
+def stand(robot: RobotDescription, seconds: float = 2.0) -> ExudynPlant:
+    plant = ExudynPlant(robot)
     for _ in range(round(seconds / TICK)):
         plant.advance(np.zeros(plant.n_legs), np.zeros(plant.n_legs), TICK)
     return plant
 
 
-def trot(plant: Plant, tick: int, duration: float = TICK) -> None:
+def trot(plant: ExudynPlant, tick: int, duration: float = TICK) -> None:
     phase = 0.12 * tick
     hip = 0.13 * np.sin(phase) * DIAGONAL - 0.111
     knee = 0.08 * np.cos(phase) * DIAGONAL - 0.039
@@ -43,7 +43,7 @@ def test_recorded_feet_are_where_the_engine_has_them() -> None:
 
 def forces_while_walking(robot: RobotDescription, step: float) -> np.ndarray:
     """Foot forces at every step of two seconds of trot, after one to get going."""
-    plant = Plant(robot, options=PlantOptions(step=step))
+    plant = ExudynPlant(robot, options=PlantOptions(step=step))
     for tick in range(60):
         trot(plant, tick)
     forces = []
@@ -78,7 +78,7 @@ def test_chatter_would_be_seen() -> None:
 
 
 def test_the_engine_has_the_time_of_the_plant() -> None:
-    plant = Plant(ROBOT)
+    plant = ExudynPlant(ROBOT)
     for duration in (TICK, 0.01, 1e-4, 0.0333, 1e-6):
         plant.advance(np.zeros(4), np.zeros(4), duration)
     assert plant._engine.mbs.systemData.GetTime() == pytest.approx(plant.time, abs=1e-12)

@@ -23,7 +23,7 @@ from loaders import (
 )
 from odd_robot import odd_robot
 
-from apnc_plant.compiled import Plant
+from apnc_plant.compiled import CompiledPlant
 from apnc_plant.kinematics import Kinematics
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.robot.links import links_of
@@ -116,7 +116,7 @@ def test_a_loader_has_our_mass_joints_limits_and_feet(
 @cache
 def standing(robot: str) -> float:
     """Height of the trunk [m] after a second in our own plant, its servos at 0."""
-    plant = Plant(ROBOTS[robot])
+    plant = CompiledPlant(ROBOTS[robot])
     for _ in range(60):
         plant.advance(*np.zeros((2, len(plant.legs))), 1.0 / 60.0)
     return float(plant.sample()["position"][2])

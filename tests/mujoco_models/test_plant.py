@@ -18,7 +18,7 @@ from apnc_plant.ground import Obstacles, Plane
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.signals import PlantError
-from exudyn_models.plant import Plant as ExudynPlant
+from exudyn_models.plant import ExudynPlant
 
 pytest.importorskip("mujoco")
 
@@ -26,7 +26,7 @@ import own_contact_mujoco
 
 from apnc_plant.legged import LeggedPlant
 from mujoco_models.engine import mj
-from mujoco_models.plant import Plant
+from mujoco_models.plant import MujocoPlant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
@@ -36,7 +36,7 @@ ROBOTS = [ROBOT, load_robot("hexapod"), odd_robot(), full_robot(), every_chain()
 def mass_matrices(robot: RobotDescription, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Mass matrix at coordinates of the tree in MuJoCo and in Exudyn."""
     conditions = Conditions(payload=0.7)
-    ours = Plant(robot, 3, conditions=conditions)._engine
+    ours = MujocoPlant(robot, 3, conditions=conditions)._engine
     ours.data.qpos[:] = q
     mj().mj_forward(ours.model, ours.data)
     theirs = ExudynPlant(robot, 3, conditions=conditions)._engine
@@ -56,7 +56,7 @@ def test_seed_conditions_and_sensor_are_those_of_every_plant() -> None:
     fine, ground = PlantOptions(step=TICK / 512), Obstacles(roughness=0.5, seed=2)
     ours, theirs = (
         P(ROBOT, 5, options=fine, conditions=named_conditions("C4", ROBOT), ground=ground)
-        for P in (Plant, ExudynPlant)
+        for P in (MujocoPlant, ExudynPlant)
     )
     assert (ours.legs, ours.mass) == (theirs.legs, theirs.mass)
     np.testing.assert_array_equal(ours.sample()["position"], theirs.sample()["position"])
@@ -68,7 +68,7 @@ def test_seed_conditions_and_sensor_are_those_of_every_plant() -> None:
     assert (ours.grf() > 1.0).all()
 
 
-@pytest.mark.parametrize("kind", [Plant, own_contact_mujoco.Plant], ids=["ours", "its own"])
+@pytest.mark.parametrize("kind", [MujocoPlant, own_contact_mujoco.Plant], ids=["ours", "its own"])
 @pytest.mark.parametrize("slope", [0.0, 0.1])
 def test_it_stands_on_a_plane_and_the_feet_carry_its_weight(
     kind: type[LeggedPlant], slope: float
@@ -91,7 +91,7 @@ def test_it_stands_on_a_plane_and_the_feet_carry_its_weight(
     expected = ROBOT.contact.friction_speed * math.tan(slope) / ROBOT.contact.friction
     creep = np.linalg.norm(sample["velocity"])
     # own contact: the viscosity of half a weight per foot, four feet instead of two
-    share = 1.0 if kind is Plant else 0.5 * math.cos(slope)
+    share = 1.0 if kind is MujocoPlant else 0.5 * math.cos(slope)
     assert creep == pytest.approx(share * expected, rel=0.03, abs=1e-5)
 
 
@@ -107,7 +107,7 @@ def test_a_sliding_foot_gets_no_extra_normal_force() -> None:
 
 
 def test_a_held_trunk_hangs_and_is_let_go() -> None:
-    plant = Plant(ROBOT, conditions=named_conditions("S1", ROBOT))
+    plant = MujocoPlant(ROBOT, conditions=named_conditions("S1", ROBOT))
     for _ in range(60):
         plant.advance(np.full(4, 0.1), np.full(4, 0.1), TICK)
     assert not plant.sample()["foot_force"].any()
@@ -122,7 +122,7 @@ def test_a_motion_that_breaks_down_is_said_and_leaves_no_file(
 ) -> None:
     monkeypatch.chdir(tmp_path)  # MuJoCo writes its warnings into the working folder
     any_step(monkeypatch)
-    plant = Plant(ROBOT, options=PlantOptions(step=TICK))
+    plant = MujocoPlant(ROBOT, options=PlantOptions(step=TICK))
     with pytest.raises(PlantError, match="the motion diverged before t = "):
         for tick in range(600):
             plant.advance(np.full(4, math.sin(tick)), np.full(4, math.cos(tick)), TICK)
@@ -130,7 +130,7 @@ def test_a_motion_that_breaks_down_is_said_and_leaves_no_file(
 
 
 def test_the_same_commands_give_the_same_motion_bit_for_bit() -> None:
-    plants = [Plant(ROBOT, 1), Plant(ROBOT, 1), Plant(ROBOT, 2)]
+    plants = [MujocoPlant(ROBOT, 1), MujocoPlant(ROBOT, 1), MujocoPlant(ROBOT, 2)]
     for plant in plants:
         for tick in range(30):
             plant.advance(np.full(4, 0.1 * math.sin(tick)), np.full(4, 0.1), TICK)

@@ -8,7 +8,7 @@ from apnc_plant.coordinates import BASE
 from apnc_plant.legged import Setup
 from apnc_plant.robot import RobotDescription
 from exudyn_models.engine import items
-from exudyn_models.plant import ExudynTree, Plant
+from exudyn_models.plant import ExudynPlant, ExudynTree
 
 
 def add_feet(engine: ExudynTree, robot: RobotDescription) -> list[Any]:
@@ -47,7 +47,7 @@ class MarkedTree(ExudynTree):
         assemble(self)
 
 
-class MarkedPlant(Plant):
+class MarkedPlant(ExudynPlant):
     """A plant whose engine has markers at the feet."""
 
     engine = MarkedTree

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from apnc_plant.compiled import Plant as CompiledPlant
+from apnc_plant.compiled import CompiledPlant
 from apnc_plant.ground import Ground
 from apnc_plant.robot import load_robot
-from exudyn_models.plant import Plant as ExudynPlant
+from exudyn_models.plant import ExudynPlant
 
 AnyPlant = CompiledPlant | ExudynPlant
 Kind = type[CompiledPlant] | type[ExudynPlant]

@@ -14,7 +14,7 @@ from unchecked import any_step
 
 from apnc import Experiment, simulate
 from apnc.loop.record import End
-from apnc_plant.compiled import Plant
+from apnc_plant.compiled import CompiledPlant
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.signals import PlantError
@@ -54,7 +54,7 @@ def commands(robot: RobotDescription) -> tuple[np.ndarray, np.ndarray, float]:
 def walked(robot: RobotDescription, step: float) -> Walk:
     """The robot under these commands, which do not depend on where its feet are."""
     hip, knee, Ts = commands(robot)
-    plant = Plant(robot, options=PlantOptions(step=step))
+    plant = CompiledPlant(robot, options=PlantOptions(step=step))
     place, loaded = [], []
     for tick in range(len(hip)):
         plant.advance(hip[tick], knee[tick], Ts)

@@ -29,7 +29,7 @@ from apnc.system.plant_fmu import PlantBuild, plant_fmu, plant_model
 from apnc_core.schema import Causality, Type
 from apnc_core.variables import scalars
 from apnc_plant import generate
-from apnc_plant.compiled import Plant
+from apnc_plant.compiled import CompiledPlant
 from apnc_plant.conditions import named_conditions
 from apnc_plant.fmu_config import robot_config
 from apnc_plant.ground import Obstacles, Plane
@@ -195,7 +195,7 @@ def walk_beside(
     payload = conditions.payload + chosen.get("payload", 0.0)
     slope, seed = chosen.get("slope", 0.0), int(chosen["seed"])
     rough = chosen.get("roughness", 0.0)
-    direct = Plant(
+    direct = CompiledPlant(
         description,
         seed,
         ground=Obstacles(slope=slope, roughness=rough, seed=seed) if rough else Plane(slope=slope),
@@ -229,7 +229,7 @@ def test_it_integrates_the_step_it_is_given(path: Path) -> None:
     assert place_after(path, [2 * TS] * 15) == ticks
     assert place_after(path, [TS] * 30 + [1.1e-15]) == ticks
     # a tick that was rounded up is still one
-    direct = Plant(load_robot("lilibot"))
+    direct = CompiledPlant(load_robot("lilibot"))
     for _ in range(30):
         direct.advance(np.array(WAVE[:4]), np.array(WAVE[4:]), 0.016666667)
     assert place_after(path, [0.016666667] * 30) == list(direct.sample()["position"])
@@ -261,7 +261,7 @@ def test_a_number_of_the_robot_acts_as_in_its_file(path: Path, v: Any) -> None:
         name, 1.3 * old if isinstance(old, float) else old
     )
     own = replace(robot, **{part: replace(getattr(robot, part), **{name: new})})
-    direct = Plant(own, 1)
+    direct = CompiledPlant(own, 1)
     given = v.enumeration.items[new].value if v.enumeration else new
     starts = [{v.name: given}] if v.variability == "fixed" else [{v.name: given}, {}]
     for start in starts:

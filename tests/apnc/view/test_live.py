@@ -30,7 +30,7 @@ import apnc
 from apnc.cli import live as cli_live
 from apnc.loop.simulate import plant_of
 from apnc.view.live import LiveView
-from apnc_plant.compiled import Plant
+from apnc_plant.compiled import CompiledPlant
 from apnc_plant.ground import Obstacles
 
 if os.name != "nt":
@@ -108,13 +108,13 @@ def test_a_page_sees_the_walk_and_its_push_is_in_the_record(engine: str) -> None
 def test_an_engine_that_is_too_slow_tells_how_far_it_is_behind(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    advance = Plant.advance
+    advance = CompiledPlant.advance
 
-    def slowly(self: Plant, *arguments: Any) -> None:
+    def slowly(self: CompiledPlant, *arguments: Any) -> None:
         time.sleep(0.03)
         advance(self, *arguments)
 
-    monkeypatch.setattr(Plant, "advance", slowly)
+    monkeypatch.setattr(CompiledPlant, "advance", slowly)
     _, page, view = watched(apnc.Experiment(duration=1.0, engine="compiled"), {}, speed=1.0)
     assert view.behind > 59 * (0.03 - 1 / 60) - 0.1
     status = page.all("status")[-1]

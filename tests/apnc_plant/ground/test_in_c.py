@@ -15,7 +15,7 @@ from compilers import run, tool
 from plants import Kind, in_both
 
 import apnc
-from apnc_plant.compiled import Plant
+from apnc_plant.compiled import CompiledPlant
 from apnc_plant.ground import Ground, GroundInC, Numbers, Plane
 from apnc_plant.robot import load_robot
 
@@ -102,8 +102,8 @@ def test_a_touch_of_its_own_counts_in_a_ground_that_c_knows_too() -> None:
             depth = radius + self.top - z
             return [(0.0, 0.0, 1.0, depth)] if depth > 0.0 else []
 
-    height = Plant(ROBOT, ground=Higher()).sample()["position"][2]
-    assert height == pytest.approx(Plant(ROBOT).sample()["position"][2] + 0.001, abs=1e-12)
+    height = CompiledPlant(ROBOT, ground=Higher()).sample()["position"][2]
+    assert height == pytest.approx(CompiledPlant(ROBOT).sample()["position"][2] + 0.001, abs=1e-12)
     assert len(Higher().contacts((0.0, 0.0, RADIUS + 0.0005), RADIUS)) == 1
     record = apnc.simulate(apnc.Experiment(duration=0.1, ground=Higher(), engine="compiled"))
     assert record.signals["position"][0, 2] == height
@@ -204,11 +204,11 @@ def test_a_ground_without_a_touch_function_is_refused() -> None:
         touch = Ground.touch
 
     with pytest.raises(ValueError, match="ground 'own' has neither a method touch nor the address"):
-        Plant(ROBOT, ground=Nothing())
+        CompiledPlant(ROBOT, ground=Nothing())
 
 
 def test_what_c_calls_lives_as_long_as_the_plant_and_no_longer() -> None:
-    plant = Plant(ROBOT, ground=Own())
+    plant = CompiledPlant(ROBOT, ground=Own())
     seen = weakref.ref(plant._ground)
     gc.collect()
     plant.advance(np.zeros(4), np.zeros(4), TICK)

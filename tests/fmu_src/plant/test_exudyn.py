@@ -11,12 +11,12 @@ from grounds import WALKED
 from made_up_robots import chained
 
 import apnc
-from apnc_plant.compiled import Plant as PlantInC
+from apnc_plant.compiled import CompiledPlant as PlantInC
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Ground, Kerb, Plane
 from apnc_plant.robot import Leg, RobotDescription, load_robot
 from apnc_plant.robot.model import CHAINS
-from exudyn_models.plant import Plant as PlantInExudyn
+from exudyn_models.plant import ExudynPlant as PlantInExudyn
 
 TICK = 1 / 60
 LILIBOT = load_robot("lilibot")
