@@ -27,6 +27,9 @@ SERVOS: Final = ("position", "dcmotor")
 NO_LOAD_SPEED: Final = "no_load_speed"
 """Name of a number in ``custom``."""
 
+_LEAST: Final = {"boundmass": "1e-09", "boundinertia": "1e-12"}
+"""What MuJoCo takes for the mass [kg] and inertia [kg m^2] of a moving body without any."""
+
 _BASE: Final = (
     ("slide", "x", "1 0 0"),
     ("slide", "y", "0 1 0"),
@@ -120,7 +123,9 @@ def foot_of(leg: Leg) -> str:
 def _model(robot: RobotDescription) -> tuple[Element, Element]:
     """Root of a model and its trunk."""
     root = Element("mujoco", model=robot.name)
-    _add(root, "compiler", angle="radian", autolimits="true", inertiafromgeom="false")
+    compiler = _add(root, "compiler", angle="radian", autolimits="true", inertiafromgeom="false")
+    if any(link.mass == 0.0 for leg in robot.legs for link in (leg.hip, leg.femur, leg.tibia)):
+        compiler.attrib.update(_LEAST)
     _add(
         root,
         "option",

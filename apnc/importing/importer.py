@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -117,8 +116,7 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
         legs,
         stance,
         guessed.estimates,
-        (*model.dropped, *limbs.folded, *stance.dropped, *guessed.dropped, *text.dropped,
-         *_not_said(legs)),
+        (*model.dropped, *limbs.folded, *stance.dropped, *guessed.dropped, *text.dropped),
     )  # fmt: skip
 
 
@@ -161,10 +159,3 @@ def _loaded(toml: str) -> RobotDescription:
         path = Path(folder, "robot.toml")
         path.write_text(toml, encoding="utf-8")
         return load_robot(path)
-
-
-def _not_said(legs: Sequence[LegGeometry]) -> Iterable[str]:
-    """What the robot file has no key for and these legs have."""
-    turns = [turn for leg in legs for turn in leg.turns if math.isfinite(turn.upper - turn.lower)]
-    if turns:
-        yield f"ranges of {len(turns)} joints: the gait stays in them, the plant has no stops"

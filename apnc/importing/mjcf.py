@@ -63,12 +63,12 @@ def read_mjcf(root: Element, path: Path) -> Model:
         if key.get("name") and key.get("qpos")
     }  # fmt: skip
     tied = mjcf_xml.tied(root)
-    speed = mjcf_xml.no_load_speed(root)
+    speeds = mjcf_xml.no_load_speeds(root)
     dropped = mjcf_xml.strip(root)
     spec, model, left_out = _compiled(root)
     if left_out:
         dropped.append(f"{len(left_out)} meshes: neither shape nor mass is taken from them")
-    reader = _Reader(spec, model, left_out, tied, speed)
+    reader = _Reader(spec, model, left_out, tied, speeds)
     parts = reader.parts()
     poses = {name: reader.pose(text, name) for name, text in keys.items()}
     return Model(root.get("model") or path.stem, tuple(parts), poses, tuple(dropped))
@@ -127,9 +127,9 @@ class _Reader:
 
     def __init__(
         self, spec: Any, model: Any, left_out: set[int], tied: Mapping[str, str],
-        speed: float | None,
+        speeds: Mapping[str, float],
     ) -> None:  # fmt: skip
-        self._model, self._left_out, self._tied, self._speed = model, left_out, tied, speed
+        self._model, self._left_out, self._tied, self._speeds = model, left_out, tied, speeds
         self._bodies = {body.id: body for body in spec.bodies}
         self._spec = spec
         self._base = self._floating()
@@ -245,7 +245,7 @@ class _Reader:
         import mujoco
 
         model, at = self._model, int(self._model.jnt_dofadr[joint])
-        efforts, stiffness, damping = [], None, float(model.dof_damping[at])
+        efforts, stiffness, damping = [], None, 0.0
         if getattr(model, "jnt_actfrclimited", [False] * model.njnt)[joint]:
             efforts.append(float(model.jnt_actfrcrange[joint][1]))
         for actuator in range(model.nu):
@@ -267,9 +267,10 @@ class _Reader:
         effort = min((each for each in efforts if each > 0.0), default=None)
         return Motor(
             effort=effort,
-            velocity=self._speed,
+            velocity=self._speeds.get(self._name("joint", joint), self._speeds.get("")),
             stiffness=stiffness,
             damping=damping,
+            passive=float(model.dof_damping[at]),
             friction=float(model.dof_frictionloss[at]),
             armature=float(model.dof_armature[at]),
         )

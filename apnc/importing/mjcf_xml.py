@@ -5,6 +5,7 @@ What is included is put in, and what a robot file does not need is taken out.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
@@ -85,15 +86,15 @@ def tied(root: Element) -> dict[str, str]:
     return found
 
 
-def no_load_speed(root: Element) -> float | None:
-    """What our own export notes in ``<custom>``."""
+def no_load_speeds(root: Element) -> dict[str, float]:
+    """What our own export notes in ``<custom>``, by joint; the empty name stands for all others."""
+    found = {}
     for element in root.iter("numeric"):
-        if element.get("name") == "no_load_speed":
-            try:
-                return float(element.get("data", ""))
-            except ValueError:
-                return None
-    return None
+        name, _, joint = element.get("name", "").partition(":")
+        if name == "no_load_speed":
+            with suppress(ValueError):
+                found[joint] = float(element.get("data", ""))
+    return found
 
 
 def strip(root: Element) -> list[str]:

@@ -63,7 +63,8 @@ class Motor:
         effort: largest torque [N m].
         velocity: largest speed [rad/s].
         stiffness: torque per position error [N m/rad].
-        damping: torque per joint speed, of the drive and of the joint itself [N m s/rad].
+        damping: torque per joint speed of the drive [N m s/rad].
+        passive: the same of the joint itself [N m s/rad].
         friction: dry friction [N m].
         armature: reflected inertia of the rotor [kg m^2].
     """
@@ -72,6 +73,7 @@ class Motor:
     velocity: float | None = None
     stiffness: float | None = None
     damping: float | None = None
+    passive: float | None = None
     friction: float | None = None
     armature: float | None = None
 

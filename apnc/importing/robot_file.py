@@ -1,8 +1,4 @@
-"""A robot file from what was found: the one place that knows which keys a robot file has.
-
-What is found but has no key yet is listed by :func:`not_said`: full inertia, joint ranges and so
-on are kept in ``LegGeometry`` until there is one.
-"""
+"""A robot file from what was found: the one place that knows which keys a robot file has."""
 
 from __future__ import annotations
 
@@ -20,6 +16,7 @@ from apnc.importing.scaling import Guessed
 from apnc.importing.stance import Stance
 from apnc_core.types import Array
 from apnc_plant.robot import JointMap, MassProperties
+from apnc_plant.robot.body import is_of_a_body
 
 DIGITS: Final = 14
 """Significant digits of a number in the file."""
@@ -30,11 +27,11 @@ THINNEST: Final = 1e-3
 SMALLEST: Final = 1e-3
 """Edges of a link without inertia in the file [m]."""
 
-LIGHTEST: Final = 1e-4
-"""Mass of a link that has none in the file, as a share of the robot's."""
+TURN: Final = 2.0 * math.pi - 1e-9
+"""Range from which on a joint has no stops [rad]: a full turn, which formats write for none."""
 
-_OTHER: Final = 0.02
-"""Difference between outline and box of the trunk that is told, as a share of the largest edge."""
+_SAME: Final = 1e-9
+"""Relative difference below which an inertia is that of its box, and an outline its edges."""
 
 _TOLD: Final = 0.02
 """Change of an inertia by the box that is told."""
@@ -89,10 +86,11 @@ def robot_text(found: Found, source: str) -> Text:
     Raises:
         ModelFileError: a link has a mass but no inertia that a body can have.
     """
-    mass = found.trunk.mass + sum(body.mass for leg in found.legs for body in leg.bodies)
-    boxes = _Boxes(LIGHTEST * mass)
+    boxes = _Boxes()
     trunk = boxes.box("trunk", found.trunk)
     trunk["center"] = found.trunk.com if found.outline is None else found.outline[0]
+    if found.outline is not None and _differ(found.outline[1], trunk["size"]):
+        trunk["outline"] = found.outline[1]
     trunk["com_side_offset"] = found.guessed.com_side_offset
     legs = [
         _leg(leg, boxes, math.degrees(femur), math.degrees(tibia))
@@ -115,24 +113,33 @@ def robot_text(found: Found, source: str) -> Text:
     ]
     if common:
         lines += _table("leg", common)
-    for name, leg in zip(found.names, written, strict=True):
+    servos = found.guessed.servos
+    for name, leg, servo, radius in zip(
+        found.names, written, servos.legs, found.guessed.radii, strict=True
+    ):
         own = {key: value for key, value in leg.items() if key not in common}
         own = {"name": json.dumps(name), **own}
+        if radius != found.guessed.contact["foot_radius"]:
+            own["foot_radius"] = _value(radius)
         lines += _table("[legs]", own)
+        for joint, numbers in servo.items():
+            lines += _table(f"legs.servo.{joint}", _values(numbers))
         joints = {each.joint: _joint(each) for each in found.joints if each.leg == name}
         lines += _table("legs.joints", joints)[1:]
-    for table in ("servo", "contact", "sensor", "controller"):
-        values: Mapping[str, Any] = getattr(found.guessed, table)
-        lines += _table(table, {key: _value(value) for key, value in values.items()})
-    outline = _other_outline(found.outline, trunk["size"])
-    return Text("\n".join(lines) + "\n", (*boxes.said(), *outline))
+    lines += _table("servo", _values(servos.common))
+    for joint, numbers in servos.kinds.items():
+        lines += _table(f"servo.{joint}", _values(numbers))
+    for table in ("contact", "sensor", "controller"):
+        lines += _table(table, _values(getattr(found.guessed, table)))
+    return Text("\n".join(lines) + "\n", boxes.said())
 
 
 def _leg(leg: LegGeometry, boxes: _Boxes, femur_angle: float, tibia_angle: float) -> dict[str, Any]:
     side = -1.0 if leg.right else 1.0
     outward = np.array([1.0, side, 1.0])
+    mirror = np.outer(outward, outward)
     links = {
-        key: {**(box := boxes.box(name, body)), "com": box["com"] * outward}
+        key: boxes.box(name, MassProperties(body.mass, body.com * outward, body.inertia * mirror))
         for key, name, body in zip(("hip", "femur", "tibia"), leg.names, leg.bodies, strict=True)
     }
     return {
@@ -142,33 +149,39 @@ def _leg(leg: LegGeometry, boxes: _Boxes, femur_angle: float, tibia_angle: float
         "tibia_length": leg.tibia,
         "femur_angle": femur_angle,
         "tibia_angle": tibia_angle,
+        **_ranges(leg, side),
         **links,
     }
 
 
-def _other_outline(outline: Array | None, size: Array) -> list[str]:
-    """The outline of the trunk, where it is not that of the box with its inertia."""
-    if outline is None or np.abs(outline[1] - size).max() < _OTHER * size.max():
-        return []
-    own, box = (" x ".join(f"{edge:.3g}" for edge in edges) for edges in (outline[1], size))
-    return [f"outline of the trunk, {own} m: falls are told by the box of its inertia, {box} m"]
+def _ranges(leg: LegGeometry, side: float) -> dict[str, tuple[float, float]]:
+    """Stops of the joints of a leg that has them [deg], y outward."""
+    found = {}
+    for key, turn in zip(("abduction_range", "femur_range", "tibia_range"), leg.turns, strict=True):
+        low, high = turn.lower, turn.upper
+        if key == "abduction_range":
+            low, high = min(side * low, side * high), max(side * low, side * high)
+        if high - low < TURN:
+            found[key] = math.degrees(low), math.degrees(high)
+    return found
+
+
+def _differ(a: Array, b: Array) -> bool:
+    return bool(np.abs(a - b).max() > _SAME * np.abs(b).max())
 
 
 class _Boxes:
-    """Boxes with the inertia of bodies, and what they leave out."""
+    """Keys of bodies, and what of their inertia is left out."""
 
-    def __init__(self, lightest: float) -> None:
-        self._lightest = lightest
+    def __init__(self) -> None:
         self._across: tuple[float, str] = (0.0, "")
         self._thick: tuple[float, str] = (0.0, "")
-        self._massless: list[str] = []
         self._points: list[str] = []
 
     def box(self, name: str, body: MassProperties) -> dict[str, Any]:
-        """Mass, edges and centre of mass of the box with these moments of inertia."""
+        """Keys of a body: with the edges of the box of its moments, and what this box has not."""
         if body.mass == 0.0:
-            self._massless.append(name)
-            return {"mass": self._lightest, "size": np.full(3, SMALLEST), "com": np.zeros(3)}
+            return {"mass": 0.0, "size": np.full(3, SMALLEST), "com": np.zeros(3)}
         moments = np.diag(body.inertia)
         if not moments.any():
             self._points.append(name)
@@ -183,32 +196,33 @@ class _Boxes:
             )
         size = np.maximum(np.sqrt(np.maximum(squares, 0.0)), THINNEST * largest)
         made = body.mass / 12.0 * ((size**2).sum() - size**2)
+        keys = {"mass": body.mass, "size": size, "com": body.com}
+        if not _differ(np.diag(made), body.inertia):
+            return keys
+        if is_of_a_body(body.inertia):
+            (xx, xy, xz), (_, yy, yz), (_, _, zz) = body.inertia
+            return {**keys, "inertia": [xx, yy, zz, xy, xz, yz]}
         scale = float(moments.max())
         across = float(np.abs(body.inertia - np.diag(moments)).max()) / scale
         self._across = max(self._across, (across, name))
         self._thick = max(self._thick, (float(np.abs(made - moments).max()) / scale, name))
-        return {"mass": body.mass, "size": size, "com": body.com}
+        return keys
 
-    def said(self) -> list[str]:
-        """What the boxes leave out, in words."""
+    def said(self) -> tuple[str, ...]:
+        """What is left out, in words."""
         words = []
         for (share, name), what in (
-            (self._across, "products of inertia, which a box has not"),
-            (self._thick, "moments of inertia that no box has"),
+            (self._across, "products of inertia that no body has with its moments"),
+            (self._thick, "moments of inertia that no body has"),
         ):
             if share > _TOLD:
                 words.append(f"{what}: up to {share:.0%} of the largest moment, in {name}")
-        if self._massless:
-            words.append(
-                f"{len(self._massless)} links move without mass "
-                f"({self._massless[0]} and so on): {self._lightest:.2g} kg each"
-            )
         if self._points:
             words.append(
                 f"{len(self._points)} links have mass but no inertia ({self._points[0]} and so "
                 f"on): boxes with edges of {SMALLEST} m"
             )
-        return words
+        return tuple(words)
 
 
 def _joint(joint: JointMap) -> str:
@@ -226,6 +240,10 @@ def _value(value: Any) -> str:
     if isinstance(value, Sequence | np.ndarray):
         return "[" + ", ".join(map(_value, value)) + "]"
     return repr(float(f"{float(value):.{DIGITS}g}") + 0.0)
+
+
+def _values(values: Mapping[str, Any]) -> dict[str, str]:
+    return {key: _value(value) for key, value in values.items()}
 
 
 def _table(name: str, values: Mapping[str, str]) -> list[str]:

@@ -7,17 +7,17 @@ Froude numbers). In the rules m is the mass and L the length of a leg, as shares
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
-import numpy as np
-
 from apnc.importing.legs import LegGeometry
 from apnc.importing.model import Motor
+from apnc.importing.servos import Servos, most_frequent, servos_of
 from apnc_core.interface import Parameters
 from apnc_plant.robot import GRAVITY, RobotDescription, load_robot
+from apnc_plant.signals import JOINTS
 
 LARGEST_EFFORT: Final = 2.5
 """Torque limit above which it is a placeholder, in weights times leg length."""
@@ -27,6 +27,12 @@ LARGEST_VELOCITY: Final = 200.0
 
 USUAL_VELOCITY: Final = 20.0
 """No-load speed of a joint with a torque limit but no speed limit [rad/s]."""
+
+Place = tuple[int, str]
+"""Number of a leg, and name of its joint."""
+
+Motors = Mapping[Place, tuple[str, Motor]]
+"""Joint in the file, and its drive."""
 
 
 @dataclass(frozen=True)
@@ -66,14 +72,17 @@ class Guessed:
     """Parts of a robot file that are not in a model file as they are.
 
     Args:
-        servo, contact, sensor, controller: tables of the robot file.
+        servos: servos of all joints.
+        radii: of the feet, leg by leg [m].
+        contact, sensor, controller: tables of the robot file.
         com_side_offset: sideways error of the trunk's centre of mass [m].
         rate: update rate at which the robot moves as Lilibot does at its own [Hz].
         estimates: which of these numbers are not the file's.
         dropped: what of the file was not taken, in words.
     """
 
-    servo: dict[str, float]
+    servos: Servos
+    radii: tuple[float, ...]
     contact: dict[str, float]
     sensor: dict[str, Any]
     controller: dict[str, float]
@@ -103,10 +112,10 @@ def guess(legs: Sequence[LegGeometry], size: Size, rate: float) -> Guessed:
     m, L = size.mass / of.mass, size.length / of.length
     time = math.sqrt(L)
     found = _Found(size, m, L)
-    servo = found.servo(legs)
-    radius = found.radius(legs)
+    servos = found.servos(legs)
+    radii = found.radii(legs)
     contact = {
-        "foot_radius": radius,
+        "foot_radius": most_frequent(radii),
         "stiffness": found.scaled("contact.stiffness", like.contact.stiffness, m / L, "N/m", "m/L"),
         "damping": found.scaled(
             "contact.damping", like.contact.damping, m / time, "N s/m", "m/sqrt(L)"
@@ -129,7 +138,7 @@ def guess(legs: Sequence[LegGeometry], size: Size, rate: float) -> Guessed:
     }
     offset = found.scaled("trunk.com_side_offset", like.trunk.com_side_offset, L, "m", "L")
     return Guessed(
-        servo, contact, sensor, _gains(size.legs, of.legs), offset, rate / time,
+        servos, tuple(radii), contact, sensor, _gains(size.legs, of.legs), offset, rate / time,
         tuple(found.estimates), tuple(found.dropped),
     )  # fmt: skip
 
@@ -164,101 +173,122 @@ class _Found:
         self.estimates.append(Estimate(name, value * factor, unit, why))
         return value * factor
 
-    def radius(self, legs: Sequence[LegGeometry]) -> float:
-        """Radius of the feet."""
+    def radii(self, legs: Sequence[LegGeometry]) -> list[float]:
+        """Radius of every foot."""
         known = [leg.foot.radius for leg in legs if leg.foot.radius is not None]
-        if not known:
+        if known:
+            radius = most_frequent(known)
+        else:
             like, _ = lilibot()
-            return self.scaled(
+            radius = self.scaled(
                 "contact.foot_radius", like.contact.foot_radius, self._length, "m", "L"
             )
-        self._spread("radii of the feet", known, float(np.mean(known)), "m")
-        return float(np.mean(known))
+        return [radius if leg.foot.radius is None else leg.foot.radius for leg in legs]
 
-    def servo(self, legs: Sequence[LegGeometry]) -> dict[str, float]:
-        """The servo that stands for all joints."""
+    def servos(self, legs: Sequence[LegGeometry]) -> Servos:
+        """The servos of all joints."""
         like, _ = lilibot()
         own, m, L = like.servo, self._m, self._length
-        motors = {turn.joint.name: turn.joint.motor for leg in legs for turn in leg.turns}
+        motors = {
+            (k, joint): (turn.joint.name, turn.joint.motor)
+            for k, leg in enumerate(legs)
+            for joint, turn in zip(JOINTS, leg.turns, strict=True)
+        }
         most = LARGEST_EFFORT * self._size.mass * GRAVITY * self._size.length
-        efforts = self._said(motors, "effort", most, "N m")
-        velocities = self._said(motors, "velocity", LARGEST_VELOCITY, "rad/s")
-        if efforts:
-            stall = float(np.mean(efforts))
-            self._spread("torque limits of the joints", efforts, stall, "N m")
+        stall = self._limits(motors, "effort", most, "N m")
+        speed = self._limits(motors, "velocity", LARGEST_VELOCITY, "rad/s")
+        if stall is None:
+            stall = self._all(motors, "stall_torque", own.stall_torque, m * L, "N m", "m L")
+            if speed is None:
+                speed = self._all(
+                    motors, "no_load_speed", own.no_load_speed, L**-0.5, "rad/s", "1/sqrt(L)"
+                )
+        elif speed is None:
+            self._estimate("servo.no_load_speed", USUAL_VELOCITY, "rad/s", "usual of geared motors")
+            speed = dict.fromkeys(motors, USUAL_VELOCITY)
+        stiffness, damping = self._filled(motors, "stiffness"), None
+        if stiffness is not None and min(stiffness.values()) > 0.0:
+            damping = self._filled(motors, "damping")
         else:
-            stall = self.scaled("servo.stall_torque", own.stall_torque, m * L, "N m", "m L")
-        if velocities:
-            speed = float(np.mean(velocities))
-            self._spread("speed limits of the joints", velocities, speed, "rad/s")
-        elif efforts:
-            speed = USUAL_VELOCITY
-            self._estimate("servo.no_load_speed", speed, "rad/s", "usual of geared motors")
-        else:
-            speed = self.scaled(
-                "servo.no_load_speed", own.no_load_speed, L**-0.5, "rad/s", "1/sqrt(L)"
-            )
-        stiffness = self._mean(motors, "stiffness", "stiffness of the joints", "N m/rad")
-        damping = None
-        if stiffness:
-            damping = self._mean(motors, "damping", "damping of the joints", "N m s/rad")
-        else:
-            stiffness = self.scaled("servo.stiffness", own.stiffness, m * L, "N m/rad", "m L")
-            if passive := [motor.damping for motor in motors.values() if motor.damping]:
-                self.dropped.append(f"damping of the joints, up to {max(passive):.3g} N m s/rad")
+            stiffness = self._all(motors, "stiffness", own.stiffness, m * L, "N m/rad", "m L")
         if damping is None:
             lag = own.damping / own.stiffness
-            damping = stiffness * lag
+            damping = {at: value * lag for at, value in stiffness.items()}
             why = f"stiffness times Lilibot's lag of {lag:.3g} s"
-            self._estimate("servo.damping", damping, "N m s/rad", why)
-        armature = self._mean(motors, "armature", "armature of the joints", "kg m^2")
-        if not armature:
-            armature = self.scaled(
-                "servo.reflected_inertia", own.reflected_inertia, m * L**2, "kg m^2", "m L^2"
+            self._estimate("servo.damping", max(damping.values()), "N m s/rad", why)
+        rotors = self._filled(motors, "armature")
+        if rotors is None or not any(rotors.values()):
+            rotors = self._all(
+                motors, "reflected_inertia", own.reflected_inertia, m * L**2, "kg m^2", "m L^2"
             )
-        friction = [each.friction for each in motors.values() if each.friction]
-        if friction:
-            self.dropped.append(f"dry friction of the joints, up to {max(friction):.3g} N m")
-        return {
-            "stiffness": stiffness,
-            "damping": damping,
-            "stall_torque": stall,
-            "no_load_speed": speed,
-            "reflected_inertia": armature,
+        values = {
+            "stiffness": stiffness, "damping": damping, "stall_torque": stall,
+            "no_load_speed": speed, "reflected_inertia": rotors,
+        }  # fmt: skip
+        for key, of_joint in (("joint_damping", "passive"), ("dry_friction", "friction")):
+            found = {at: getattr(motor, of_joint) or 0.0 for at, (_, motor) in motors.items()}
+            if any(found.values()):
+                values[key] = found
+        return servos_of(
+            [
+                {joint: {key: found[k, joint] for key, found in values.items()} for joint in JOINTS}
+                for k in range(len(legs))
+            ]
+        )
+
+    def _all(
+        self, motors: Motors, key: str, value: float, factor: float, unit: str, rule: str
+    ) -> dict[Place, float]:
+        """A number of Lilibot times a factor, for all joints."""
+        return dict.fromkeys(motors, self.scaled(f"servo.{key}", value, factor, unit, rule))
+
+    def _filled(
+        self, motors: Motors, key: str, without: Container[Place] = ()
+    ) -> dict[Place, float] | None:
+        """What the file says of every joint; what it leaves out is as in most joints of its kind.
+
+        Args:
+            motors: the drives.
+            key: the number.
+            without: joints whose number does not count.
+
+        Returns:
+            None if it says nothing.
+        """
+        known = {
+            at: float(value)
+            for at, (_, motor) in motors.items()
+            if at not in without and (value := getattr(motor, key)) is not None
         }
-
-    def _said(self, motors: dict[str, Motor], key: str, most: float, unit: str) -> list[float]:
-        """Limits that the file gives, without placeholders; joints that have none are reported."""
-        values = {name: getattr(motor, key) for name, motor in motors.items()}
-        known = {name: value for name, value in values.items() if value is not None and value > 0.0}
-        placeholders = {name: value for name, value in known.items() if value >= most}
-        if placeholders:
-            name, value = next(iter(placeholders.items()))
-            self.dropped.append(
-                f"{key} {value:g} {unit} of {len(placeholders)} joints ({name} and so on): a "
-                f"placeholder, above {most:.3g} {unit}"
-            )
-        real = [value for name, value in known.items() if name not in placeholders]
-        if real and len(real) < len(motors):
-            self.dropped.append(f"{len(motors) - len(real)} joints have no {key}")
-        return real
-
-    def _mean(self, motors: dict[str, Motor], key: str, words: str, unit: str) -> float | None:
-        """The mean of what the file says of all joints; None if it says nothing."""
-        values = [getattr(motor, key) for motor in motors.values()]
-        known = [value for value in values if value is not None]
         if not known:
             return None
-        mean = float(np.mean(known))
-        self._spread(words, known, mean, unit)
-        return mean
+        usual = most_frequent(known.values())
+        kinds = {
+            joint: most_frequent(values)
+            for joint in JOINTS
+            if (values := [value for at, value in known.items() if at[1] == joint])
+        }
+        return {at: known.get(at, kinds.get(at[1], usual)) for at in motors}
 
-    def _spread(self, words: str, values: Sequence[float], taken: float, unit: str) -> None:
-        low, high = min(values), max(values)
-        if high - low > 1e-9 * abs(high):
+    def _limits(
+        self, motors: Motors, key: str, most: float, unit: str
+    ) -> dict[Place, float] | None:
+        """Limits that the file gives, without placeholders; joints that have none are reported."""
+        known = {at: getattr(motor, key) for at, (_, motor) in motors.items()}
+        known = {at: value for at, value in known.items() if value is not None and value > 0.0}
+        placeholders = {at: value for at, value in known.items() if value >= most}
+        if placeholders:
+            at, value = next(iter(placeholders.items()))
             self.dropped.append(
-                f"{words}, {low:.4g} to {high:.4g} {unit}: all have the mean, {taken:.4g}"
+                f"{key} {value:g} {unit} of {len(placeholders)} joints ({motors[at][0]} and so "
+                f"on): a placeholder, above {most:.3g} {unit}"
             )
+        real = known.keys() - placeholders.keys()
+        if real and len(real) < len(motors):
+            self.dropped.append(
+                f"{len(motors) - len(real)} joints have no {key}: that of most joints is taken"
+            )
+        return self._filled(motors, key, motors.keys() - real)
 
     def _estimate(self, name: str, value: float, unit: str, why: str) -> None:
         self.estimates.append(Estimate(name, value, unit, why))

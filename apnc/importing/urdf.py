@@ -77,7 +77,7 @@ def read_urdf(root: Element, path: Path) -> Model:
         above[child] = joint
         below[parent].append(joint)
     base = _base(links, below, above)
-    servo = _servo(root)
+    servo = _servo(root) or Motor()
     parts: list[Part] = []
     waiting: deque[tuple[str, int, Element | None]] = deque([(base, -1, None)])
     while waiting:
@@ -155,6 +155,7 @@ def _joint(element: Element, servo: Motor) -> Joint | None:
     if kind in ("fixed", _FREE):
         return None
     limit, dynamics = element.find("limit"), element.find("dynamics")
+    servo = _servo(element) or servo
     axis = numbers(element.find("axis"), "xyz", 3, np.array([1.0, 0.0, 0.0]))
     length = float(np.linalg.norm(axis))
     if not length > 0.0:
@@ -166,7 +167,8 @@ def _joint(element: Element, servo: Motor) -> Joint | None:
         effort=_said(number(limit, "effort")),
         velocity=_said(number(limit, "velocity")),
         stiffness=servo.stiffness,
-        damping=servo.damping if servo.damping is not None else _said(number(dynamics, "damping")),
+        damping=servo.damping,
+        passive=_said(number(dynamics, "damping")),
         friction=_said(number(dynamics, "friction")),
         armature=servo.armature,
     )
@@ -180,13 +182,13 @@ def _said(value: float) -> float | None:
     return None if math.isnan(value) else value
 
 
-def _servo(root: Element) -> Motor:
-    """What the comment of our own export says."""
-    for comment in root.iterchildren(etree.Comment):
+def _servo(of: Element) -> Motor | None:
+    """What the comment of our own export says of all joints, or of one."""
+    for comment in of.iterchildren(etree.Comment):
         if found := _SERVO.search(comment.text or ""):
             stiffness, damping, armature = map(float, found.groups())
             return Motor(stiffness=stiffness, damping=damping, armature=armature)
-    return Motor()
+    return None
 
 
 def _shapes(link: Element, name: str) -> tuple[Shape, ...]:

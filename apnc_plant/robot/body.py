@@ -88,7 +88,7 @@ class Body:
     """A rigid link.
 
     Args:
-        mass: mass [kg].
+        mass: mass [kg]; 0 for a link that only joins others.
         size: edge lengths of a box [m]: its shape, and its inertia if it has none of its own.
         com: centre of mass in the frame of the link [m].
         inertia: entries xx, yy, zz, xy, xz and yz of the inertia tensor about the centre of mass,
@@ -96,10 +96,14 @@ class Body:
             box.
     """
 
-    mass: Annotated[Number, limits("kg", gt=0.0)]
+    mass: Annotated[Number, limits("kg", ge=0.0)]
     size: Edges
     com: Vector3
     inertia: Inertia | None = None
+
+    def __post_init__(self) -> None:
+        if self.mass == 0.0 and self.inertia is not None:
+            raise ValueError("mass is 0 and there is an inertia; allowed: none without mass")
 
     def inertia_tensor(self) -> Array:
         """Inertia tensor about the centre of mass [kg m^2], shape (3, 3)."""
@@ -121,6 +125,7 @@ class Trunk(Body):
             ``size``.
     """
 
+    mass: Annotated[Number, limits("kg", gt=0.0)]
     center: Vector3 = (0.0, 0.0, 0.0)
     com_side_offset: Annotated[Number, limits("m", ge=0.0)] = 0.0
     outline: Edges | None = None

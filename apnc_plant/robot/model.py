@@ -30,6 +30,9 @@ from apnc_plant.robot.servo import LegServos, Servo
 
 GRAVITY: Final = 9.81
 
+AT_A_STOP: Final = 1e-9
+"""By how much the reference pose may lie beyond a stop [rad]: files round."""
+
 FREE: Final = (-math.inf, math.inf)
 """Range of a joint without stops [rad]."""
 
@@ -151,7 +154,7 @@ class Leg:
             ("femur_range", self.femur_range, self.femur_angle),
             ("tibia_range", self.tibia_range, self.tibia_angle),
         ):
-            if stops is not None and not stops[0] < angle < stops[1]:
+            if stops is not None and not stops[0] - AT_A_STOP <= angle <= stops[1] + AT_A_STOP:
                 low, high, at = (f"{math.degrees(each):.4g}" for each in (*stops, angle))
                 raise ValueError(
                     f"{key} is {low} to {high} deg; allowed: around the reference pose, at {at}"
@@ -356,6 +359,28 @@ class RobotDescription:
             if (other := taken.setdefault(each.name, each)) is not each:
                 places = f"the {other.joint} of {other.leg} and the {each.joint} of {each.leg}"
                 raise ValueError(f"joint {each.name!r} is {places}; allowed: one of them")
+        for leg in self.legs:
+            self._check_inertia(leg)
+
+    def _check_inertia(self, leg: Leg) -> None:
+        """Refuse a joint that turns nothing with inertia."""
+        if leg.has_coxa:  # servos by name, see ``Leg.chain``
+            outward = (("hip", "coxa"), ("knee", "femur"), ("abduction", "tibia"))
+        elif leg.chain[:2] == ("hip", "abduction"):
+            outward = (("hip", "hip"), ("abduction", "abduction"), ("knee", "knee"))
+        else:
+            outward = (("abduction", "abduction"), ("hip", "hip"), ("knee", "knee"))
+        carried = 0.0
+        for (servo, joint), link in zip(
+            outward[::-1], (leg.tibia, leg.femur, leg.hip), strict=True
+        ):
+            carried += link.mass
+            turns = joint in leg.chain
+            if turns and carried == self.servo_of(leg, servo).reflected_inertia == 0.0:
+                raise ValueError(
+                    f"the {joint} of leg {leg.name} turns neither mass nor rotor; allowed: a mass "
+                    "behind it, or a reflected_inertia of its servo above 0"
+                )
 
     @property
     def leg_names(self) -> tuple[str, ...]:

@@ -30,7 +30,15 @@ from mujoco_models.plant import MujocoPlant
 
 TICK = 1 / 60
 ROBOT = load_robot("lilibot")
-ROBOTS = [ROBOT, load_robot("hexapod"), odd_robot(), full_robot(), every_chain()]
+
+
+def massless() -> RobotDescription:
+    """Lilibot with hips that only join trunk and femur."""
+    legs = tuple(replace(leg, hip=replace(leg.hip, mass=0.0)) for leg in ROBOT.legs)
+    return replace(ROBOT, name="massless", legs=legs)
+
+
+ROBOTS = [ROBOT, load_robot("hexapod"), odd_robot(), full_robot(), massless(), every_chain()]
 
 
 def mass_matrices(robot: RobotDescription, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -281,7 +281,7 @@ def test_two_joints_in_one_body_turn_about_their_own_points(tmp_path: Path) -> N
     path.write_text(text)
     found = import_robot(path)
     compare(found, without_meshes(text), "torso", paw)
-    assert any("links move without mass" in line for line in found.dropped)
+    assert [leg.hip.mass for leg in found.robot.legs] == [0.0] * 4
 
 
 def test_the_mass_of_a_mjcf_is_that_of_its_inertials(tmp_path: Path) -> None:
@@ -289,10 +289,8 @@ def test_the_mass_of_a_mjcf_is_that_of_its_inertials(tmp_path: Path) -> None:
     path.write_text(mjcf())
     robot = import_robot(path).robot
     assert robot.mass == pytest.approx(9.0 + 4 * 1.7)
-    np.testing.assert_allclose(
-        robot.trunk.inertia_tensor(), np.diag([0.06, 0.12, 0.14]), atol=1e-12
-    )
     full = [[0.06, 0.001, 0.002], [0.001, 0.12, 0.003], [0.002, 0.003, 0.14]]
+    np.testing.assert_allclose(robot.trunk.inertia_tensor(), full, rtol=1e-12)
     trunk = read_mjcf(read_xml(path), path).parts[0].body
     np.testing.assert_array_equal(trunk.inertia, full)
     assert robot.servo.stall_torque == 25.0

@@ -74,6 +74,20 @@ def test_the_servo_of_a_joint_is_that_of_its_leg_its_kind_or_the_robot(tmp_path:
     assert robot.servo_of(lf, "hip").damping == 0.5
 
 
+def test_a_link_without_mass_needs_a_rotor_or_what_it_carries(tmp_path: Path) -> None:
+    bare = LILIBOT.replace("reflected_inertia", "# reflected_inertia")
+    hip, tibia = ("[leg.hip]\nmass = 0.095", "[leg.tibia]\nmass = 0.085")
+    for text in (LILIBOT, bare):
+        assert load_robot(written(tmp_path, text.replace(hip, "[leg.hip]\nmass = 0"))).mass < 2.5
+    light = tibia.replace("0.085", "0.0")
+    assert load_robot(written(tmp_path, LILIBOT.replace(tibia, light))).mass < 2.5
+    with pytest.raises(RobotDescriptionError, match="the knee of leg RF turns neither mass nor"):
+        load_robot(written(tmp_path, bare.replace(tibia, light)))
+    own = f"{light}\ninertia = [1, 1, 1, 0, 0, 0]"
+    with pytest.raises(RobotDescriptionError, match="tibia: mass is 0 and there is an inertia"):
+        load_robot(written(tmp_path, LILIBOT.replace(tibia, own)))
+
+
 def test_stops_are_angles_of_the_links(tmp_path: Path) -> None:
     own = "[leg]\nabduction_range = [-10, 20]\nfemur_range = [30, 60]\ntibia_range = [80, 100]"
     robot = load_robot(written(tmp_path, LILIBOT.replace("[leg]", own)))
@@ -221,8 +235,8 @@ def written(tmp_path: Path, text: str) -> str:
         ("mount = [-0.092, 0.066, 0.0]", "mount = [0, 1]", "legs[4].mount is [0, 1]"),
         (
             "mount = [-0.092, 0.066, 0.0]",
-            "mount = [-0.092, 0.066, 0.0]\nfemur = {mass = 0}",
-            "legs[4].femur.mass is 0; allowed: a finite number above 0 [kg]",
+            "mount = [-0.092, 0.066, 0.0]\nfemur = {mass = -1}",
+            "legs[4].femur.mass is -1; allowed: a finite number, 0 or more [kg]",
         ),
         ("femur_length = 0.070\n", "", "leg.femur_length is missing; allowed: a finite number"),
         ("[leg.femur]\nmass = 0.12", "[leg.femur]", "leg.femur.mass is missing"),

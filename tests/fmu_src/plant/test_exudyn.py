@@ -140,7 +140,11 @@ def test_late_slow_and_disturbed_it_walks_as_in_exudyn(conditions: Conditions) -
 
 
 def test_a_robot_with_every_key_walks_as_in_exudyn() -> None:
-    Walk(full_robot(), Plane(slope=0.05), Conditions(payload=0.4))
+    robot = full_robot()
+    # the trot goes 7 degrees below the reference angle of the tibia, and 14 above that of the femur
+    own = [{"tibia_range": (np.radians(88.0), 2.5)}, {}, {"femur_range": (-0.2, np.radians(50.0))}]
+    legs = tuple(replace(leg, **more) for leg, more in zip(robot.legs, [*own, {}], strict=True))
+    Walk(replace(robot, legs=legs), Plane(slope=0.05), Conditions(payload=0.4))
 
 
 def apart(first: apnc.Record, second: apnc.Record) -> float:
