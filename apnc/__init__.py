@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from apnc.features import WalkFeatures, walk_features
     from apnc.loop.experiment import Experiment
     from apnc.loop.gait import Gait, gait_of_run, read_gait, write_gait
+    from apnc.loop.push import Push
     from apnc.loop.record import End, Record
     from apnc.loop.simulate import simulate
     from apnc.many import simulate_many
@@ -33,6 +34,7 @@ _PLACES: Final = {
     "Experiment": "apnc.loop.experiment",
     **dict.fromkeys(("Gait", "gait_of_run", "read_gait", "write_gait"), "apnc.loop.gait"),
     "Plant": "apnc_plant.plant",
+    "Push": "apnc.loop.push",
     **dict.fromkeys(("End", "Record"), "apnc.loop.record"),
     "simulate": "apnc.loop.simulate",
     "simulate_many": "apnc.many",
@@ -55,6 +57,7 @@ __all__ = [
     "Obstacles",
     "Plane",
     "Plant",
+    "Push",
     "Record",
     "RobotDescription",
     "StudyResults",
