@@ -19,7 +19,7 @@ SIZE: Final = (360.0, 250.0)
 HEAD: Final = 26.0
 """Height of the line of words [px]."""
 
-RATE: Final = 20.0
+RATE: Final = 15.0
 """Pictures per second."""
 
 STRIDES: Final = 2

@@ -46,7 +46,7 @@ def missed(found: Sequence[Walk]) -> list[str]:
     if not slip <= SLIP:
         words.append(f"slip {_percent(slip)}")
     if not all(after > before for before, after in pairwise(speeds)):
-        words.append("speed does not grow: " + ", ".join(f"{speed:.2f}" for speed in speeds))
+        words.append("speed does not grow: " + ", ".join(f"{speed:.3f}" for speed in speeds))
     return words
 
 

@@ -65,7 +65,7 @@ def test_each_aim_can_be_missed() -> None:
     assert page.missed(changed(walks, 0.1, slip_share=0.19)) == ["slip 19.0 %"]
     assert page.missed(changed(walks, 0.1, slip_share=None)) == ["slip -"]
     assert page.missed(changed(walks, 0.2, speed_m_per_s=0.2)) == [
-        "speed does not grow: 0.20, 0.20"
+        "speed does not grow: 0.200, 0.200"
     ]
 
 
