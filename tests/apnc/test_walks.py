@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
+import own_contact_exudyn
 import pytest
 
 from apnc import metrics
@@ -18,6 +20,7 @@ from apnc.studies.states.measure import judge, measure
 from apnc.studies.states.timeline import TIMELINE
 from apnc.studies.steering import schedules
 from apnc.studies.study import WALK_MI
+from apnc_plant.options import PlantOptions
 from research.contact.measure import GRADUAL, SUDDEN, errors, trot
 
 
@@ -26,9 +29,14 @@ def walked(**fields: Any) -> tuple[Record, WalkFeatures]:
     return record, walk_features(record)
 
 
+@cache
+def default_walk(seed: int) -> tuple[Record, WalkFeatures]:
+    return walked(seed=seed)
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_default_walk_forms_a_trot_and_keeps_it(seed: int) -> None:
-    record, summary = walked(seed=seed)
+    record, summary = default_walk(seed)
     assert summary.converged and not summary.fell
     assert summary.convergence_time_s is not None and summary.convergence_time_s < 9.0
     assert summary.speed_m_per_s is not None and summary.speed_m_per_s > 0.03
@@ -39,6 +47,17 @@ def test_default_walk_forms_a_trot_and_keeps_it(seed: int) -> None:
     assert np.abs(metrics.wrap(c["phi_memory"][-1] - trot)).max() < np.pi / 4
     # and the couplings draw the gait nearer to the trot than what they hold
     assert metrics.phase_error(c["o1"], c["o2"], trot)[-300:].max() < 0.3
+
+
+def test_the_trot_forms_under_exudyns_contact_as_under_ours() -> None:
+    record, ours = default_walk(0)
+    run = record.experiment
+    options = PlantOptions(step=run.step)
+    plant = own_contact_exudyn.Plant(run.description, run.seed, options=options)
+    its = walk_features(simulate(run, plant=plant))
+    assert its.converged and not its.fell
+    assert its.path_speed_m_per_s == pytest.approx(ours.path_speed_m_per_s, rel=0.2)
+    assert its.stride_frequency_hz == pytest.approx(ours.stride_frequency_hz, rel=0.1)
 
 
 @pytest.mark.parametrize("seed", range(2))
