@@ -176,11 +176,10 @@ static void move_ground(void) {
 }
 
 static void be_pushed(void) {
-    trunk_state *t = parts_of(plant).trunk;
+    const double share = 1.0 / (PUSH_TICKS * total_mass);
     if (!push_left) return;
     push_left--;
-    t->xd.x += push[0] / (PUSH_TICKS * total_mass);
-    t->xd.y += push[1] / (PUSH_TICKS * total_mass);
+    plant_shift_velocity(plant, 0, share * push[0], share * push[1]);
 }
 
 /* One tick; how the robot fares: PLANT_WALKS, PLANT_FELL, PLANT_DIVERGED. The sample is that of
