@@ -77,7 +77,6 @@ def row(robot: GalleryRobot, about: Mapping[str, Any], found: Sequence[Walk]) ->
         "speed [m/s]": f"{min(speeds):.2f} to {max(speeds):.2f}",
         "lift": _percent(_lift(found)),
         "slip": _percent(_slip(found)),
-        "misses": "; ".join(missed(found)) or "nothing",
     }
 
 
@@ -107,7 +106,8 @@ def text(
     )
     return template.render(
         about=about, summary=summary(found, titles), films="\n".join(pictures),
-        table=markdown(rows), tuned=any(tuned), untuned=None if all(tuned) else MI_AIMED,
+        table=markdown(rows), missed=[(titles[name], missed(own)) for name, own in found.items()],
+        tuned=any(tuned), untuned=None if all(tuned) else MI_AIMED,
         apc=round(STRICT["APC"] * about["seeds"]), lift=_percent(LIFT), slip=_percent(SLIP),
         off=f"{100.0 * OFF:.0f} %",
         refused=[(titles[name], why) for name, why in sorted(about["refused"].items())],

@@ -77,7 +77,8 @@ def test_the_page_has_a_row_for_a_robot_and_a_line_for_one_that_was_refused(
     text = page.text([DOG, cat], ABOUT, made_up(), tmp_path)
     row = "| Dog | 12.0 | 0.40 | URDF, kennel 1.2 | MIT | 10 | 0.1 to 0.2 | 40/40 | 40/40 |"
     assert row in text
-    assert "| 0.20 to 0.40 | 5.0 % | 18.0 % | nothing |" in text
+    assert "| 0.20 to 0.40 | 5.0 % | 18.0 % |\n" in text
+    assert "- **Dog:** nothing\n" in text
     assert "**1 of 1 robots reach every aim: Dog.**" in text
     assert "- Cat: its knees bend the other way" in text
     assert f"(../pictures/{tmp_path.name}/dog.webp)" in text and "cat.webp" not in text
