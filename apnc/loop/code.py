@@ -20,7 +20,7 @@ _PACKAGES: Final = (
 _SUFFIXES: Final = (".c", ".h", ".py", ".toml")
 
 # parts of apnc and of packages with studies that only show, export, document or search
-_APART: Final = {"cli", "docs", "report", "search", "system", "view", "film", "figures.py"}
+_APART: Final = {"cli", "docs", "report", "system", "tune", "view", "film", "figures.py"}
 
 ROOT: Final = Path(__file__).parents[2]
 

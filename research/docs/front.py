@@ -1,4 +1,4 @@
-"""Draw the Pareto front of a search: lift against speed of every set that was walked again.
+"""Draw the Pareto front of the search for Lilibot: lift against speed of every set walked again.
 
 python -m research.docs.front docs/formation/front.csv docs/pictures/front.svg
 """
@@ -52,7 +52,7 @@ def figure(rows: list[dict[str, str]]) -> dict[str, object]:
 
 
 def main(table: Path, picture: Path) -> None:
-    """Write the picture of a table of ``apnc.studies.search.front``."""
+    """Write the picture of a table of sets, see docs/formation/search.md."""
     with table.open(newline="", encoding="utf-8") as file:
         drawn = json.dumps(figure(list(csv.DictReader(file))))
     page = (

@@ -6,14 +6,13 @@ from pathlib import Path
 
 from apnc.loop.code import ROOT, code_hash
 
-ONLY_SHOW = {"cli", "film", "report", "system", "view"}
-"""Packages of ``apnc`` that show or export results."""
+ONLY_SHOW = {"cli", "film", "report", "system", "tune", "view"}
+"""Packages of ``apnc`` that show or export results, or search a robot."""
 
 
 def counts(file: Path) -> bool:
     """Whether a result of a study can depend on a file of ``apnc``, named from there."""
-    search = file.parts[:2] == ("studies", "search")
-    return not (file.parts[0] in ONLY_SHOW or search or file.name == "figures.py")
+    return not (file.parts[0] in ONLY_SHOW or file.name == "figures.py")
 
 
 def test_an_edit_of_any_file_that_a_result_depends_on_is_other_code(tmp_path: Path) -> None:
