@@ -1,0 +1,52 @@
+"""What is searched: the page has every variable, and the start is the robot of the file."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from apnc.tune.design import MI_AIMED, Start, candidate, variables_for
+from apnc_plant.robot import load_robot
+
+PAGE = Path(__file__).parents[3] / "docs" / "robots" / "tune.md"
+EVERY = variables_for(6, servo=True, body=True)
+
+
+def test_the_page_has_every_variable_with_its_range() -> None:
+    if not PAGE.exists():
+        pytest.skip("no documentation beside the tests")
+    row = re.compile(r"^\| `([\w.]+)` \| (\S+) to (\S+) \| (\w+) \|", re.MULTILINE)
+    rows = row.findall(PAGE.read_text(encoding="utf-8"))
+    told = {name: (float(low), float(high), scale == "log") for name, low, high, scale in rows}
+    assert told == {each.name: tuple(each[1:]) for each in EVERY}
+
+
+def test_the_first_candidate_is_the_robot_of_the_file() -> None:
+    robot = load_robot("lilibot")
+    start = Start(robot, 60.0, MI_AIMED, EVERY)
+    found = candidate(start, start.first()).robot
+    assert found.legs == robot.legs
+    assert found.mi_range == pytest.approx(MI_AIMED)
+    assert found.servo.stiffness == pytest.approx(robot.servo.stiffness)
+    assert found.servo.damping == pytest.approx(robot.servo.damping)
+    assert found.trunk.com == pytest.approx(robot.trunk.com)
+    assert found.mass == pytest.approx(robot.mass)
+
+
+@pytest.mark.parametrize("variable", EVERY, ids=lambda each: each.name)
+def test_a_place_is_that_of_its_value_and_changes_the_robot(variable: object) -> None:
+    robot = load_robot("lilibot")
+    start = Start(robot, 60.0, MI_AIMED, EVERY)
+    index = EVERY.index(variable)  # type: ignore[arg-type]
+    assert [EVERY[index].place(EVERY[index].value(x)) for x in (0.0, 0.3, 1.0)] == pytest.approx(
+        [0.0, 0.3, 1.0]
+    )
+    x = np.array(start.first())
+    before = candidate(start, x).robot
+    x[index] = 0.9 if x[index] < 0.5 else 0.1
+    after = candidate(start, x).robot
+    assert after != before
+    assert after.mass == pytest.approx(before.mass)
