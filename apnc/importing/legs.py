@@ -160,7 +160,7 @@ def leg_geometry(leg: tuple[Segment, ...]) -> LegGeometry:
     turns = (
         _turn(first, side, level, 0.0),
         _unwound(_turn(second, hip_sign, 0.0, femur_back), -math.pi / 2, math.pi / 2),
-        _unwound(_turn(third, -knee_sign, 0.0, femur_back - tibia_back), 0.0, math.pi),
+        _unwound(_turn(third, -knee_sign, 0.0, femur_back - tibia_back), -math.pi, math.pi),
     )
     y = np.array([0.0, 1.0, 0.0])
     origins = (mount, np.array([hip[0], plane, hip[2]]), np.array([knee[0], plane, knee[2]]))

@@ -98,6 +98,8 @@ def robot_text(found: Found, source: str) -> Text:
             found.legs, found.stance.femur, found.stance.tibia, strict=True
         )
     ]
+    if all(leg["knee"] == "<" for leg in legs):
+        legs = [{key: value for key, value in leg.items() if key != "knee"} for leg in legs]
     written = [{key: _value(value) for key, value in leg.items()} for leg in legs]
     common = {
         key: value for key, value in written[0].items()
@@ -150,6 +152,7 @@ def _leg(leg: LegGeometry, boxes: _Boxes, femur_angle: float, tibia_angle: float
         "femur_angle": femur_angle,
         "tibia_angle": tibia_angle,
         **_ranges(leg, side),
+        "knee": ">" if tibia_angle < 0.0 else "<",
         **links,
     }
 

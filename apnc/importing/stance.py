@@ -45,7 +45,8 @@ class Stance:
 
     Args:
         femur: back of vertical, of each leg [rad].
-        tibia: forward of the line of the femur, of each leg [rad].
+        tibia: forward of the line of the femur, of each leg [rad]; negative where the knee lies in
+            front of the line from hip to foot.
         ratio: height of the hips over the feet, in halves of the distance of neighbouring hips.
         behind: how far the middle of the feet lies behind the centre of mass, in the same halves.
         dropped: what of a named pose is not kept, in words.
@@ -63,7 +64,8 @@ def stance_by_rule(trunk: MassProperties, legs: Sequence[LegGeometry], swing: Sw
 
     The hips are ``LEG_PER_SPACING`` above the feet and the middle of the feet is ``FEET_BEHIND``
     behind the centre of mass, both in halves of the mean distance of neighbouring hips of a side.
-    If a joint would leave its range, the nearest height at which none does is taken.
+    If a joint would leave its range, the nearest height at which none does is taken. A knee lies
+    behind the line from hip to foot, or in front of it where its range is all there.
 
     Args:
         trunk: mass properties of the trunk in its frame.
@@ -74,11 +76,11 @@ def stance_by_rule(trunk: MassProperties, legs: Sequence[LegGeometry], swing: Sw
         ModelFileError: no height keeps all joints in their ranges; the message names the joint
             that is farthest out of it at the height of the rule.
     """
-    _check_knees(legs, swing)
+    bends = [_bends(leg, swing) for leg in legs]
     half = _half_spacing(legs)
     kept = []
     for ratio in _RATIOS:
-        angles = _angles(trunk, legs, half, ratio)
+        angles = _angles(trunk, legs, bends, half, ratio)
         out = [_outside(leg, *pair, swing) for leg, pair in zip(legs, angles, strict=True)]
         worst = max(out)
         if worst[0] <= 0.0:
@@ -106,17 +108,12 @@ def stance_of_pose(
         pose: angles by joint [rad]; 0 if left out.
 
     Raises:
-        ModelFileError: a knee is bent the other way, or the gait would leave the range of a joint.
+        ModelFileError: the gait would leave the range of a joint.
     """
     angles, dropped = [], []
     for leg in legs:
         aside, femur, tibia = (turn.geometric(pose.get(turn.joint.name, 0.0)) for turn in leg.turns)
         femur, tibia = (_principal(angle) for angle in (femur, tibia))
-        if tibia <= 0.0:
-            raise ModelFileError(
-                f"leg {leg.names[0]}: in this pose the knee {leg.knee.joint.name} is in front of "
-                f"the line from hip to foot, at {tibia:.3g} rad; allowed: behind it, above 0"
-            )
         if abs(aside) > _LEVEL:
             dropped.append(
                 f"{leg.abduction.joint.name} stands at {leg.abduction.zero:.3g} rad, where the hip "
@@ -166,29 +163,29 @@ def _half_spacing(legs: Sequence[LegGeometry]) -> float:
     return spacing / 2.0
 
 
-def _check_knees(legs: Sequence[LegGeometry], swing: Swing) -> None:
-    """Refuse knees that cannot bend so that they lie behind the line from hip to foot."""
-    other = [leg for leg in legs if leg.knee.upper < STRAIGHTEST + 2.0 * swing.knee]
-    if other:
-        named = ", ".join(
-            f"{leg.knee.joint.name} ({leg.knee.lower:.3g} to {leg.knee.upper:.3g} rad)"
-            for leg in other
-        )
-        raise ModelFileError(
-            f"{len(other)} of {len(legs)} knees bend the other way, in front of the line from hip "
-            f"to foot: {named}; allowed: knees behind it, angles above {STRAIGHTEST}"
-        )
+def _bends(leg: LegGeometry, swing: Swing) -> float:
+    """1 for a knee that lies behind the line from hip to foot, -1 for one in front of it."""
+    room = STRAIGHTEST + 2.0 * swing.knee
+    behind, in_front = leg.knee.upper >= room, leg.knee.lower <= -room
+    return -1.0 if in_front and not behind else 1.0
 
 
 def _angles(
-    trunk: MassProperties, legs: Sequence[LegGeometry], half: float, ratio: float
+    trunk: MassProperties,
+    legs: Sequence[LegGeometry],
+    bends: Sequence[float],
+    half: float,
+    ratio: float,
 ) -> list[tuple[float, float]]:
     """Angles of femur and tibia of each leg [rad]; nan where a leg does not reach."""
     hips = np.array([leg.hip_joint for leg in legs])
     heights = ratio * half + hips[:, 2] - hips[:, 2].mean()
     forward, angles = 0.0, [(0.0, 0.0)] * len(legs)
     for _ in range(30):  # the legs move the centre of mass a little
-        angles = [_reach(leg, forward, height) for leg, height in zip(legs, heights, strict=True)]
+        angles = [
+            _reach(leg, forward, height, bent)
+            for leg, height, bent in zip(legs, heights, bends, strict=True)
+        ]
         com = _center_of_mass(trunk, legs, angles)
         before, forward = forward, float(com[0] - FEET_BEHIND * half - hips[:, 0].mean())
         if not math.isfinite(forward) or abs(forward - before) < 1e-12:
@@ -196,7 +193,7 @@ def _angles(
     return angles
 
 
-def _reach(leg: LegGeometry, forward: float, down: float) -> tuple[float, float]:
+def _reach(leg: LegGeometry, forward: float, down: float, bends: float) -> tuple[float, float]:
     """Angles of femur and tibia with the foot so far in front of and below the hip [m]."""
     a, b, distance = leg.femur, leg.tibia, math.hypot(forward, down)
     cosine = (distance**2 - a**2 - b**2) / (2.0 * a * b)
@@ -204,7 +201,8 @@ def _reach(leg: LegGeometry, forward: float, down: float) -> tuple[float, float]
         return math.nan, math.nan
     knee = math.acos(cosine)
     back = math.atan2(-forward, down)
-    return back + math.atan2(b * math.sin(knee), a + b * math.cos(knee)), knee
+    lean = math.atan2(b * math.sin(knee), a + b * math.cos(knee))
+    return back + bends * lean, bends * knee
 
 
 def _outside(leg: LegGeometry, femur: float, tibia: float, swing: Swing) -> tuple[float, str]:
@@ -213,7 +211,10 @@ def _outside(leg: LegGeometry, femur: float, tibia: float, swing: Swing) -> tupl
     if math.isnan(femur):
         return math.inf, f"leg {name} is too short or too long for any stance"
     worst = (-math.inf, "")
-    least = replace(leg.knee, lower=max(leg.knee.lower, STRAIGHTEST))
+    if tibia < 0.0:
+        least = replace(leg.knee, upper=min(leg.knee.upper, -STRAIGHTEST))
+    else:
+        least = replace(leg.knee, lower=max(leg.knee.lower, STRAIGHTEST))
     for turn, angle, size in ((leg.hip, femur, swing.hip), (least, tibia, swing.knee)):
         out = max(turn.lower - (angle - size), angle + size - turn.upper)
         moves = sorted(map(turn.in_file, (angle - size, angle + size)))

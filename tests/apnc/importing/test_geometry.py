@@ -84,7 +84,7 @@ def feet(found: ImportedRobot, angles: dict[tuple[str, str], float]) -> dict[str
     for leg in found.robot.legs:
         q = [angles[leg.name, joint] for joint in ("abduction", "hip", "knee")]
         femur = leg.femur_angle - q[1]
-        shank = femur - leg.tibia_angle - q[2]
+        shank = femur - leg.tibia_angle - (-q[2] if leg.knee == ">" else q[2])
         point = rotation(y, femur) @ [0.0, 0.0, -leg.femur_length]
         point = point + rotation(y, shank) @ [0.0, 0.0, -leg.tibia_length]
         at[leg.name] = leg.mount + rotation(x, q[0]) @ (leg.outward(leg.hip_offset) + point)
@@ -138,11 +138,27 @@ def compare(found: ImportedRobot, spec: Any, trunk: str, foot: Any) -> None:
             np.testing.assert_allclose(point, there, atol=1e-9)
 
 
-def test_a_urdf_with_mirrored_axes_and_turned_frames_moves_as_in_mujoco(tmp_path: Path) -> None:
-    path = tmp_path / "dog.urdf"
-    path.write_text(Dog().text())
+IN_FRONT = (-2.6, -0.4)
+KNEES = {
+    "dog": {},
+    "X": {"hl": IN_FRONT, "hr": IN_FRONT},
+    "X turned": {"fl": IN_FRONT, "fr": IN_FRONT},
+    "bird": dict.fromkeys(NAMES, IN_FRONT),
+}
+"""Ranges of the knees that lie in front of the line from hip to foot [rad]."""
+
+
+@pytest.mark.parametrize("pose", KNEES)
+def test_a_urdf_with_mirrored_axes_and_turned_frames_moves_as_in_mujoco(
+    pose: str, tmp_path: Path
+) -> None:
+    dog, path = Dog(knee=KNEES[pose]), tmp_path / "dog.urdf"
+    path.write_text(dog.text())
     found = import_robot(path)
-    spec = mujoco.MjSpec.from_string(Dog().text())
+    in_front = {own.names[0][:2] for own, leg in zip(found.legs, found.robot.legs, strict=True)
+                if leg.knee == ">"}  # fmt: skip
+    assert in_front == set(KNEES[pose])
+    spec = mujoco.MjSpec.from_string(dog.text())
     spec.compiler.fusestatic = False
     spec.compiler.boundmass = spec.compiler.boundinertia = 1e-9
 
@@ -230,9 +246,10 @@ def center_of_mass(found: ImportedRobot) -> np.ndarray:
     return np.asarray(total / robot.mass)
 
 
-def test_the_stance_is_that_of_the_rule(tmp_path: Path) -> None:
+@pytest.mark.parametrize("pose", KNEES)
+def test_the_stance_is_that_of_the_rule(pose: str, tmp_path: Path) -> None:
     path = tmp_path / "dog.urdf"
-    path.write_text(Dog().text())
+    path.write_text(Dog(knee=KNEES[pose]).text())
     found = import_robot(path)
     assert found.stance.ratio == pytest.approx(1.05)
     half = MOUNT[0]

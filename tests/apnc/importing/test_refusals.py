@@ -50,7 +50,6 @@ def forked() -> str:
     return Dog(extra="\n".join(parts)).text()
 
 
-X_POSE = {"hl": (-2.6, -0.4), "hr": (-2.6, -0.4)}
 
 REFUSED: dict[str, tuple[Callable[[], str], str]] = {
     "xacro": (
@@ -124,10 +123,6 @@ REFUSED: dict[str, tuple[Callable[[], str], str]] = {
         lambda: Dog(axes=("0.8 0.6 0", "0 1 0")).text(),
         r"turns about the oblique axis \(-?0\.8, -?0\.6, 0\) of the trunk; allowed: an abduction",
     ),
-    "X pose": (
-        lambda: Dog(knee=X_POSE).text(),
-        r"2 of 4 knees bend the other way, .*hr_kfe .*hl_kfe .*; allowed: knees behind it",
-    ),
     "range": (
         lambda: Dog(knee={"hl": (1.0, 1.2)}).text(),
         r"leg hl_hip: the gait would move hl_kfe from .* to .* rad; allowed: -1\.2 to -1 rad, its",
@@ -178,7 +173,7 @@ def test_a_pose_that_the_file_has_not_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_pose_beyond_a_range_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ModelFileError, match=r"in this pose the knee|the gait would move"):
+    with pytest.raises(ModelFileError, match="the gait would move"):
         import_robot(urdf(tmp_path, Dog().text()), "zero")
 
 
