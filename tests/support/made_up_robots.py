@@ -22,6 +22,19 @@ def chained(chain: tuple[str, ...], name: str = "lilibot") -> RobotDescription:
     return replace(robot, name=f"{name} with {'-'.join(chain)}", legs=tuple(legs))
 
 
+def x_pose() -> RobotDescription:
+    """Lilibot with its hind knees in front, and all feet a little farther forward."""
+    robot = load_robot("lilibot")
+
+    def posed(leg: Leg) -> Leg:
+        if leg.name in ("RF", "LF"):
+            return replace(leg, femur_angle=leg.femur_angle - math.radians(18.0))
+        femur = -leg.femur_angle - math.radians(12.0)
+        return replace(leg, knee=">", femur_angle=femur, tibia_angle=-leg.tibia_angle)
+
+    return replace(robot, name="x pose", legs=tuple(map(posed, robot.legs)))
+
+
 def every_chain() -> RobotDescription:
     """A robot of six legs with joints of every chain, at about the same height."""
     robot, legs = load_robot("hexapod"), []
