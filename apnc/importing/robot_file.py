@@ -103,7 +103,7 @@ def robot_text(found: Found, source: str) -> Text:
     written = [{key: _value(value) for key, value in leg.items()} for leg in legs]
     common = {
         key: value for key, value in written[0].items()
-        if key != "mount" and all(leg[key] == value for leg in written)
+        if key != "mount" and all(leg.get(key) == value for leg in written)
     }  # fmt: skip
     lines = [
         f"# Imported from {source}. SI units, angles in degrees; x forward, y to the left, z up.",

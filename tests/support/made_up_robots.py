@@ -35,6 +35,17 @@ def x_pose() -> RobotDescription:
     return replace(robot, name="x pose", legs=tuple(map(posed, robot.legs)))
 
 
+def insect() -> RobotDescription:
+    """The hexapod with a coxa, a femur and a tibia in every leg."""
+    robot = load_robot("hexapod")
+    pose = {"femur_angle": math.radians(110.0), "tibia_angle": math.radians(105.0)}
+    legs = (
+        replace(leg, chain=("coxa", "femur", "tibia"), hip_offset=(0.0, 0.03, 0.0), **pose)
+        for leg in robot.legs
+    )
+    return replace(robot, name="insect", legs=tuple(legs))
+
+
 def every_chain() -> RobotDescription:
     """A robot of six legs with joints of every chain, at about the same height."""
     robot, legs = load_robot("hexapod"), []

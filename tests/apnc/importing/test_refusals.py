@@ -50,7 +50,6 @@ def forked() -> str:
     return Dog(extra="\n".join(parts)).text()
 
 
-
 REFUSED: dict[str, tuple[Callable[[], str], str]] = {
     "xacro": (
         lambda: edited('<robot name="dog">', '<robot name="dog"><link name="${x}"/>'),
