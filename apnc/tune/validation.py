@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from statistics import median
@@ -18,6 +19,9 @@ from apnc.tune.stance import leg_length
 
 SEEDS: Final = 20
 """Seeds at each MI of a validation."""
+
+AIMS: Final = 9
+"""Number of aims of a validation."""
 
 AIM_ALONE: Final = 0.9
 """Share of walks without couplings that are to form the gait [1]."""
@@ -69,10 +73,12 @@ class Missed(NamedTuple):
 
     Args:
         aim: which, in a few words.
-        words: what was found instead, in a line.
+        places: at how many MI.
+        words: the aim, and what was found instead at these MI, in a line.
     """
 
     aim: str
+    places: int
     words: str
 
 
@@ -100,45 +106,53 @@ class Validation:
 
     def missed(self) -> list[Missed]:
         """Aims that were not reached; none if all were."""
-        found = []
-        walks, alone = self.of("walk"), self.of("apc")
-        for cells, what, aim in (
-            (walks, "with ANC", 1.0),
-            (alone, "with APC alone", AIM_ALONE),
-            (self.of("varied"), f"on bodies off by up to {percent(MARGIN)}", AIM_ALONE),
-            (self.of("payload"), "with a payload of a fifth of its mass", AIM_ALONE),
-            (self.of("sensor"), "with one foot sensor dead", AIM_ALONE),
-            (self.of("air"), "let down from the air", AIM_ALONE),
-        ):
-            for cell in cells:
-                if cell.good < aim * len(cell.runs):
-                    found.append(
-                        Missed(
-                            what,
-                            f"{what}, MI {cell.mi:.3g}: {cell.good} of {len(cell.runs)} walk in a "
-                            f"{self.gait} that holds; aimed at {math.ceil(aim * len(cell.runs))}",
-                        )
-                    )
-        for cell in walks:
-            lift, slip = cell.middle("lift"), cell.middle("slip")
-            if lift < AIM_LIFT:
-                words = (
-                    f"MI {cell.mi:.3g}: the lowest foot lifts by {1e3 * lift * self.length:.1f}"
-                    f" mm, {percent(lift, 1)} of the leg; aimed at {percent(AIM_LIFT)}"
-                )
-                found.append(Missed("lift of the feet", words))
-            if slip > AIM_SLIP:
-                words = (
-                    f"MI {cell.mi:.3g}: a foot slips by {percent(slip)} of the stride; aimed at "
-                    f"at most {percent(AIM_SLIP)}"
-                )
-                found.append(Missed("slip of the feet", words))
+        walks = self.of("walk")
+        found = [
+            missed
+            for kind, what, share in (
+                ("walk", "with ANC", 1.0),
+                ("apc", "with APC alone", AIM_ALONE),
+                ("varied", f"on bodies off by up to {percent(MARGIN)}", AIM_ALONE),
+                ("payload", "with a payload of a fifth of its mass", AIM_ALONE),
+                ("sensor", "with one foot sensor dead", AIM_ALONE),
+                ("air", "let down from the air", AIM_ALONE),
+            )
+            if (missed := self._too_few(what, self.of(kind), share))
+        ]
+        lifts = [(cell, cell.middle("lift")) for cell in walks]
+        low = [(cell, self._mm(lift)) for cell, lift in lifts if lift < AIM_LIFT]
+        if low:
+            aim = f"{self._mm(AIM_LIFT)} ({percent(AIM_LIFT)} of the leg)"
+            found.append(_missed("lift of the lowest foot", aim, low))
+        slips = [(cell, cell.middle("slip")) for cell in walks]
+        far = [(cell, percent(slip)) for cell, slip in slips if slip > AIM_SLIP]
+        if far:
+            aim = f"at most {percent(AIM_SLIP)} of the stride"
+            found.append(_missed("slip of a foot", aim, far))
         speeds = [cell.middle("speed") for cell in walks]
         if any(later <= before for before, later in pairwise(speeds)):
-            told = ", ".join(f"{speed * self.speed:.3f}" for speed in speeds)
-            words = f"its speed does not grow with MI throughout: {told} m/s"
-            found.append(Missed("speed", words))
+            told = [
+                (cell, f"{speed * self.speed:.3f} m/s")
+                for cell, speed in zip(walks, speeds, strict=True)
+            ]
+            found.append(_missed("speed", "growing with MI", told))
         return found
+
+    def _too_few(self, what: str, cells: Sequence[Cell], share: float) -> Missed | None:
+        bad = [(cell, str(cell.good)) for cell in cells if cell.good < share * len(cell.runs)]
+        if not bad:
+            return None
+        runs = len(bad[0][0].runs)
+        aim = f"{math.ceil(share * runs)} of {runs} in a {self.gait} that holds"
+        return _missed(what, aim, bad)
+
+    def _mm(self, lift: float) -> str:
+        return f"{1e3 * lift * self.length:.1f} mm"
+
+
+def _missed(what: str, aim: str, found: Sequence[tuple[Cell, str]]) -> Missed:
+    told = ", ".join(f"{value} at MI {cell.mi:.3g}" for cell, value in found)
+    return Missed(what, len(found), f"{what}, aimed at {aim}: {told}")
 
 
 def validated(

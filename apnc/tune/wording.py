@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shlex
-from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
@@ -12,7 +11,7 @@ from apnc.report.wording import Verdict
 from apnc.tune.runs import MARGIN
 from apnc.tune.tuned_file import changes
 from apnc.tune.tuning import Tuned
-from apnc.tune.validation import AIM_ALONE, Validation, in_words, percent
+from apnc.tune.validation import AIM_ALONE, AIMS, Validation, in_words, percent
 from apnc_core.variables import variable_named
 
 COLUMNS: Final = (
@@ -148,10 +147,9 @@ def _missed(found: Validation) -> Verdict:
     question, missed = "What was not reached?", found.missed()
     if not missed:
         return Verdict(question, "Nothing", "all aims were reached", "good")
-    counts = Counter(each.aim for each in missed)
-    detail = ", ".join(f"{aim} at {n} MI" if aim != "speed" else aim for aim, n in counts.items())
-    many = "aim" if len(missed) == 1 else "aims"
-    return Verdict(question, f"{len(missed)} {many}", detail, "fair")
+    places = ", ".join(f"{each.aim} at {each.places} MI" for each in missed)
+    answer = f"{len(missed)} of {AIMS} aims"
+    return Verdict(question, answer, places.replace(" %", "\N{NO-BREAK SPACE}%"), "fair")
 
 
 def _good(found: Validation, kind: str) -> tuple[int, int]:

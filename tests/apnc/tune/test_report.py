@@ -45,7 +45,8 @@ def test_the_page_says_what_was_found_and_what_to_do_with_it(tmp_path: Path) -> 
     page = written(tuned(validation({("apc", 1): 3})), tmp_path)
     assert len(page.encode()) < LARGEST
     for words in (
-        "Trot at 5 of 5 MI", "<h2>Not reached</h2>", "with APC alone, MI 0.11: 1 of 4",
+        "Trot at 5 of 5 MI", "<h2>Not reached</h2>",
+        "with APC alone, aimed at 4 of 4 in a trot that holds: 1 at MI 0.11",
         f"apnc walk --robot {tmp_path / 'tuned.toml'} --engine compiled", "apnc study mi --robot",
         "apnc build --robot", "apnc tune lilibot --candidates 32 --seed 1",
         "<code>controller.a1</code></td><td>0.14</td><td>0.2</td><td>rad",
@@ -59,7 +60,7 @@ def test_a_robot_that_never_walks_has_a_page_that_says_so(tmp_path: Path) -> Non
     page = written(weak(), tmp_path)
     assert "No trot that walks" in page
     assert "of the walk shown here" in page
-    assert "with ANC, MI 0.08: 0 of 4 walk" in page
+    assert "in a trot that holds: 0 at MI 0.08, 0 at MI 0.11" in page
 
 
 def test_an_interrupted_search_has_a_page(tmp_path: Path) -> None:
