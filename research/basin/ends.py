@@ -85,7 +85,10 @@ COLOURS: Final = (theme.BLUE, theme.ORANGE, theme.GREEN, theme.PURPLE, theme.VER
 
 def stacked(rows: Sequence[Row]) -> list[Trace]:
     """Bars of the shares of the ends [%], one per MI, start and controller."""
-    ends = [e for e in dict.fromkeys(row["end"] for row in rows) if e not in NO_GAIT]
+    total: Counter[str] = Counter()
+    for row in rows:
+        total[row["end"]] += int(row["walks"])
+    ends = [end for end, _ in total.most_common() if end not in NO_GAIT]
     looks = dict(zip(ends, COLOURS, strict=False)) | {"other": theme.GREY, "fell": theme.INK}
     traces = []
     for end, colour in looks.items():

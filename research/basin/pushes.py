@@ -194,8 +194,12 @@ def polar(rows: Sequence[Row]) -> list[Trace]:
     return traces
 
 
-def figures(results: Sequence[Result]) -> list[Figure]:
-    """Largest push that is forgotten over its direction."""
+def figures_of(rows: Sequence[Row]) -> list[Figure]:
+    """Largest push that is forgotten over its direction.
+
+    Args:
+        rows: of :func:`counts`.
+    """
     axis = {"gridcolor": theme.GRID, "linecolor": theme.EDGE}
     plot = {
         "radialaxis": axis | {"title": {"text": "push [N s]"}, "angle": 90, "rangemode": "tozero"},
@@ -204,7 +208,7 @@ def figures(results: Sequence[Result]) -> list[Figure]:
     }
     layout = theme.layout(480, polar=plot, hovermode="closest")
     note = f"Seen from above, ahead is up. {100 * ENOUGH:g} % of the runs return to the gait."
-    data = polar(counts(results))
+    data = polar(rows)
     return [Figure("pushes", "Pushes that are forgotten", note, data, layout, over_time=False)]
 
 
@@ -214,7 +218,7 @@ STUDY: Final = Study(
     {"mi": MIS, "direction": DIRECTIONS, "froude": FROUDE},
     controllers=("apnc", "apc"),
     measure=measure,
-    figures=figures,
+    figures=lambda results: figures_of(counts(results)),
     table=lambda results: counts_table(counts(results)),
 )
 

@@ -129,12 +129,13 @@ def figures(results: Sequence[Result]) -> list[Figure]:
             layout["xaxis"]["autorange"] = "reversed"
         key = f"limits-{name.replace(' ', '-')}"
         note = "Runs in which the gait forms by the strict criterion and carries the robot ahead."
-        data = _lines(rows, name)
+        data = lines_of(rows, name)
         found.append(Figure(key, name.capitalize(), note, data, layout, over_time=False))
     return found
 
 
-def _lines(rows: Sequence[Row], limit: str) -> list[Trace]:
+def lines_of(rows: Sequence[Row], limit: str) -> list[Trace]:
+    """Share of the runs that work [%] over the value of a limit, a line per controller."""
     lines = []
     for controller in dict.fromkeys(row["controller"] for row in rows):
         own = [r for r in rows if r["controller"] == controller and r["limit"] == limit]

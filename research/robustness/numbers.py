@@ -167,7 +167,7 @@ def bars(rows: Sequence[Row], *, shifts: bool) -> list[Trace]:
     ]
     names = [_label(number) for number in numbers]
     traces: list[Trace] = []
-    for controller in dict.fromkeys(row["controller"] for row in rows):
+    for controller in reversed(dict.fromkeys(row["controller"] for row in rows)):  # from below
         spans = [limits(rows, number, controller) for number in numbers]
         ends = [
             None if span is None else [off(KNOWN[number], level) for level in span]
