@@ -60,7 +60,7 @@ def start_of(robot: str) -> Start:
     description = load_robot(robot)
     return Start(
         description, description.rate or 60.0, MI_AIMED,
-        variables_for(4, servo=True, body=False, scale=True), False,
+        variables_for(description, servo=True, body=False, scale=True), False,
     )  # fmt: skip
 
 

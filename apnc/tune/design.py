@@ -63,6 +63,12 @@ STANCE: Final = (
 )
 """How the robot stands, in leg lengths."""
 
+POSE: Final = (
+    DesignVariable("b1", -0.5, 0.5),
+    DesignVariable("b2", -0.5, 0.5),
+)
+"""How a robot with coxae stands: offsets of the motor neurons [rad], in place of the stance."""
+
 GAINS: Final = (
     DesignVariable("a1", 0.08, 0.26),
     DesignVariable("a2", 0.06, 0.40),
@@ -240,19 +246,20 @@ def _body(robot: RobotDescription, values: Mapping[str, float], length: float) -
 
 
 def variables_for(
-    legs: int, *, servo: bool = True, body: bool = False, scale: bool = True
+    robot: RobotDescription, *, servo: bool = True, body: bool = False, scale: bool = True
 ) -> tuple[DesignVariable, ...]:
     """What is searched.
 
     Args:
-        legs: number of legs.
+        robot: the robot.
         servo: whether the gains of the servos may be changed.
         body: whether what is uncertain of the body may be changed.
         scale: whether the MI range may be scaled.
     """
     gains = [each for each in GAINS if scale or each.name != "mi.scale"]
-    many = MANY_LEGS if legs > FEW_LEGS else ()
-    return (*STANCE, *gains, *many, *(SERVO if servo else ()), *(BODY if body else ()))
+    many = MANY_LEGS if len(robot.legs) > FEW_LEGS else ()
+    stance = POSE if any(leg.has_coxa for leg in robot.legs) else STANCE
+    return (*stance, *gains, *many, *(SERVO if servo else ()), *(BODY if body else ()))
 
 
 def _parameter(robot: RobotDescription, name: str) -> Any:

@@ -70,17 +70,28 @@ def stood(
     moved = [_offsets(leg, *pose) for leg, pose in zip(robot.legs, wanted, strict=True)]
     b1, b2 = (float(x) for x in np.mean(moved, axis=0))
     legs = tuple(
-        leg if abs(hip - b1) < 1e-12 and abs(knee - b2) < 1e-12
-        else replace(
-            leg,
-            femur_angle=_inside(leg.femur_angle - (hip - b1), leg.femur_range),
-            tibia_angle=_inside(
-                leg.tibia_angle + _bends(leg) * (knee - b2), leg.tibia_range
-            ),
-        )
+        _referred(leg, hip - b1, knee - b2)
         for leg, (hip, knee) in zip(robot.legs, moved, strict=True)
-    )  # fmt: skip
+    )
     return replace(robot, legs=legs), (b1, b2)
+
+
+def _referred(leg: Leg, hip: float, knee: float) -> Leg:
+    """The leg with a reference pose that is off by angles of hip and knee [rad], between stops.
+
+    The joints of its model file count from the reference pose, so that their offsets change, too.
+    """
+    if abs(hip) < 1e-12 and abs(knee) < 1e-12:
+        return leg
+    femur = _inside(leg.femur_angle - hip, leg.femur_range)
+    tibia = _inside(leg.tibia_angle + _bends(leg) * knee, leg.tibia_range)
+    turned = {"hip": leg.femur_angle - femur, "knee": _bends(leg) * (tibia - leg.tibia_angle)}
+    joints = {
+        name: replace(own, offset=own.offset + own.sign * angle)
+        for name, angle in turned.items()
+        if (own := getattr(leg.joints, name)) is not None
+    }
+    return replace(leg, femur_angle=femur, tibia_angle=tibia, joints=replace(leg.joints, **joints))
 
 
 def _inside(angle: float, stops: tuple[float, float] | None) -> float:

@@ -16,8 +16,8 @@ from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
 DIGITS: Final = 5
 """Significant digits of a number that was searched."""
 
-_ANGLES: Final = ("femur_angle", "tibia_angle")
-"""Keys of a leg that a file gives in degrees."""
+_ANGLES: Final = ("femur_angle", "tibia_angle", "offset")
+"""Keys of a leg and its joints that a file gives in degrees."""
 
 
 def tuned_text(file: str | Path, robot: RobotDescription, comments: Sequence[str]) -> str:

@@ -121,9 +121,7 @@ def tune(
         description,
         description.rate or 1.0 / float(variable_named("Ts").start or 0.0),
         mi,
-        variables_for(
-            len(description.legs), servo=allowed.servo, body=allowed.body, scale=not paper
-        ),
+        variables_for(description, servo=allowed.servo, body=allowed.body, scale=not paper),
         paper,
     )
     lines = Log(log)

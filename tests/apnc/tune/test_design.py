@@ -12,7 +12,7 @@ from apnc.tune.design import MI_AIMED, Start, candidate, variables_for
 from apnc_plant.robot import load_robot
 
 PAGE = Path(__file__).parents[3] / "docs" / "robots" / "tune.md"
-EVERY = variables_for(6, servo=True, body=True)
+EVERY = variables_for(load_robot("hexapod"), servo=True, body=True)
 
 
 def test_the_page_has_every_variable_with_its_range() -> None:

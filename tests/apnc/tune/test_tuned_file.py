@@ -20,7 +20,7 @@ SHIPPED = sorted(path.stem for path in ROBOTS.glob("*.toml"))
 
 def found(robot: RobotDescription) -> RobotDescription:
     """A robot that differs in everything that a search may change."""
-    variables = variables_for(6, servo=True, body=True)
+    variables = variables_for(robot, servo=True, body=True)
     x = np.random.default_rng(3).uniform(0.2, 0.8, len(variables))
     return candidate(Start(robot, 60.0, MI_AIMED, variables), x).robot
 
