@@ -12,6 +12,7 @@ from apnc.tune.design import Candidate
 from apnc.tune.measured import Measured
 from apnc.tune.search import Best, Count
 from apnc.tune.tuned_file import read_back, tuned_text
+from apnc_core.interface import Parameters
 from apnc_plant.robot import RobotDescription, load_robot
 
 MI = (0.08, 0.11, 0.15, 0.21, 0.28)
@@ -44,9 +45,10 @@ def validation(bad: dict[tuple[str, int], int] | None = None, seeds: int = 4) ->
 
 
 def tuned(found: Validation | None = None, before: RobotDescription | None = None) -> Tuned:
-    """Lilibot, or another robot, with another slope of its hips."""
+    """Lilibot, or another robot, with another slope of its hips, and that of its knees written."""
     before = before or load_robot("lilibot")
-    changed: dict[str, Any] = {"controller": {**before.controller, "a1": 0.2}, "mi": 0.13}
+    own = {"a1": 0.2, "a2": Parameters().a2}
+    changed: dict[str, Any] = {"controller": {**before.controller, **own}, "mi": 0.13}
     robot = replace(before, mi_range=(0.08, 0.28), rate=60.0, **changed)
     if before == load_robot("lilibot"):
         robot = read_back(tuned_text("lilibot", robot, []))
