@@ -65,7 +65,7 @@ export class Controls {
     const nudge = (name, by) => page.set(name, page.settings[name] + by);
     const keys = {
       " ": () => page.pause(), b: () => page.breakOne(), o: () => page.sensors(page.settings.off.size ? [] : page.legs), p: () => page.shove(), r: () => page.reset(),
-      f: () => page.forget(), n: () => page.again(), s: () => page.slower(), "+": () => nudge("mi", 0.01), "-": () => nudge("mi", -0.01),
+      f: () => page.forget(), n: () => page.again(), s: () => page.slower(), i: () => page.count(), "+": () => nudge("mi", 0.01), "-": () => nudge("mi", -0.01),
       ArrowLeft: () => nudge("turn", 0.1), ArrowRight: () => nudge("turn", -0.1),
     };
     const slides = event.target.matches("input"), presses = event.target.matches("button, a, summary");

@@ -83,6 +83,7 @@ class Page {
     const passed = Math.min(LONGEST, (now - (this.before ?? now)) / 1000);
     this.before = now;
     this.passed = passed;
+    if (passed) this.rate = this.rate ? 0.95 * this.rate + 0.05 / passed : 1 / passed; // over about 20 frames
     if (this.paused) return;
     this.owed += passed / this.settings.slow;
     for (; this.owed >= this.data.Ts; this.owed -= this.data.Ts) {
@@ -110,7 +111,7 @@ class Page {
     put("stored", !remembers ? "stores no gait" : this.stored ? "gait stored" : "no gait stored yet");
     by("stored").classList.toggle("on", this.stored);
     if (history.count % 15 === 0 || this.paused) put("speed", `${history.speed(1.5).toFixed(2)} m/s`);
-    put("clock", `${this.time.toFixed(1)} s`);
+    put("clock", `${this.time.toFixed(1)} s${this.counting ? ` · ${Math.round(this.rate ?? 0)} frames/s` : ""}`);
     put("story", this.story ?? this.usual());
     by("break").classList.toggle("inviting", this.stored && !this.settings.off.size && !this.script);
   }
@@ -209,6 +210,8 @@ class Page {
   }
 
   pause() { this.paused = !this.paused; this.before = undefined; this.changed(); }
+  /** Show how many frames the browser draws in a second, or no longer. */
+  count() { this.counting = !this.counting; this.words(); }
   slower() { this.settings.slow = { 1: 4, 4: 10, 10: 1 }[this.settings.slow] ?? 1; this.changed(); }
   /** Another seed: another sensor noise and another asymmetry of the robot. */
   again() { this.begin({ seed: this.settings.seed + 1 }); }

@@ -37,6 +37,10 @@ window.apncProbe = () => {
   walk(left, 0.1 + data.Ts);
   const seen = page.history.csv(data).split("\n");
   const hash = (change) => { change(); return location.hash; };
+  const typed = (key) => {
+    document.body.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    return document.getElementById("clock").textContent;
+  };
   return {
     walks,
     formed: walk(made(start), 8),
@@ -59,6 +63,7 @@ window.apncProbe = () => {
     broken: document.getElementById("feet").textContent,
     said: document.getElementById("gait").textContent,
     still: document.body.classList.contains("still"),
+    clocks: [typed("i"), typed("i")],
     requests: performance.getEntriesByType("resource").map((entry) => entry.name),
   };
 };

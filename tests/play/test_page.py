@@ -6,6 +6,7 @@ import html
 import html.parser
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -184,3 +185,10 @@ def test_address_holds_what_is_set(seen: dict[str, Any]) -> None:
         "#robot=hexapod&controller=apc",
     ]
     assert "LM works" in seen["broken"]
+
+
+@needs_browser
+def test_a_key_shows_the_frames_in_a_second_and_hides_them(seen: dict[str, Any]) -> None:
+    with_frames, without = seen["clocks"]
+    assert re.fullmatch(r"[0-9.]+ s · [0-9]+ frames/s", with_frames)
+    assert re.fullmatch(r"[0-9.]+ s", without)
