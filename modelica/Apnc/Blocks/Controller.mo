@@ -61,7 +61,7 @@ block Controller "The adaptive neural controller of a legged robot"
     coupling_sign=coupling_sign,
     phi_frozen=phi_frozen,
     stored=stored,
-    phi_stored=phi_stored) "memory of the relations"
+    phi_stored=phi_stored) "couplings to the stored gait"
     annotation (Placement(transformation(extent={{63,-32},{91,-4}})));
 equation
   for i in 1:n loop

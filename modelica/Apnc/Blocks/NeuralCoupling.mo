@@ -28,29 +28,29 @@ block NeuralCoupling "Neural coupling: the stored relations act on the oscillato
 protected
   final parameter Real gain = if coupling_sign == Types.CouplingSign.printed then xi else -xi
     "gain with its sign";
-  discrete Real memory[n - 1](start=if stored then phi_stored else zeros(n - 1), each fixed=true)
+  discrete Real stored_gait[n - 1](start=if stored then phi_stored else zeros(n - 1), each fixed=true)
     "stored relations";
   Boolean on(start=stored, fixed=true) "relations are stored and in use";
 equation
   when sample(startTime, Ts) then
-    memory = if method == Types.Method.apnc and settled and not pre(on) then phi
-      else pre(memory);
+    stored_gait = if method == Types.Method.apnc and settled and not pre(on) then phi
+      else pre(stored_gait);
     on = if hold or method <> Types.Method.apnc then pre(on)
       elseif kappa_rule == Types.KappaRule.printed then settled
       else pre(on) or settled;
-    phi_memory = memory;
+    phi_memory = stored_gait;
     kappa = if on and method == Types.Method.apnc then 1.0 else 0.0;
     g1 = if hold or kappa <= 0.0 then zeros(n)
-      else Functions.couple(o1, if phi_frozen then memory else angle, gain);
+      else Functions.couple(o1, if phi_frozen then stored_gait else angle, gain);
     g2 = if hold or kappa <= 0.0 then zeros(n)
-      else Functions.couple(o2, if phi_frozen then memory else angle, gain);
+      else Functions.couple(o2, if phi_frozen then stored_gait else angle, gain);
   end when;
   annotation (
     Icon(graphics={Text(extent={{-96,-30},{96,30}}, textString="Neural coupling", textColor={24,42,66})}),
     Documentation(info="<html>
 <p>g<sup>l</sup> = xi sum<sub>k</sub> sin(o<sup>l</sup> - o<sup>k</sup> - phi<sub>lk</sub>) (Eq. 17),
 with the sign of coupling_sign: the printed plus (Eq. 18) does not recover a stored gait, minus does.
-phi is frozen when kappa switches on; a coupling to the phases measured now holds nothing. The memory
+phi is frozen when kappa switches on; a coupling to the phases measured now holds nothing. The stored gait
 survives hold.</p>
 <p>For relations of exactly 0 and pi and equal oscillators the sum is zero: exact relations cannot
 start recall; measured ones are never exact.</p>
