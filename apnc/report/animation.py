@@ -9,8 +9,8 @@ import numpy as np
 
 from apnc import metrics
 from apnc.report.encoding import Signal, packed
+from apnc.report.lines import Run
 from apnc.report.look import LOOK
-from apnc.report.panels import Run
 from apnc.report.skeleton import Plant, in_ground, in_trunk, leg_chains, trunk_corners
 from apnc.report.theme import leg_colours
 from apnc_core.types import Array

@@ -1,4 +1,4 @@
-"""The panels of a walk's report."""
+"""The figures of a walk's report."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from apnc import metrics
 from apnc.report import theme
 from apnc.report.encoding import Signal
 from apnc.report.figure import Figure, Trace
-from apnc.report.panels import Run, line, stacked
+from apnc.report.lines import Run, line, stacked
 from apnc.report.skeleton import clearance, in_ground
 from apnc_core.types import Array
 from apnc_plant.signals import JOINT_SIGNS, JOINTS
@@ -22,7 +22,7 @@ PI_TICKS: Final = {
 
 
 def all_figures(run: Run) -> list[Figure]:
-    """Every panel in reading order."""
+    """Every figure in reading order."""
     makers = (gait, phases, _speed, _path, _trunk, _clearances, _loads, outputs, _gains)
     joints = [_angles(run, joint) for joint in ("hip", "knee")]
     return [*(make(run) for make in makers), _stability(run), *joints, _torques(run)]

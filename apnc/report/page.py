@@ -13,7 +13,7 @@ from apnc.report.animation import animation_data
 from apnc.report.encoding import Signal
 from apnc.report.figures import all_figures
 from apnc.report.html import page
-from apnc.report.panels import Run
+from apnc.report.lines import Run
 from apnc.report.samples import LATE_S
 from apnc.report.theme import leg_colours
 from apnc.report.wording import facts, heading, rows, verdicts

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from apnc.report import theme
 from apnc.report.figure import Figure, Trace
-from apnc.report.panels import stacked
+from apnc.report.lines import stacked
 from apnc.tune.log import CHECK, Row
 from apnc.tune.measured import MAX_SLIP, MIN_LIFT, MIN_SPEED
 from apnc.tune.runs import MARGIN

@@ -14,8 +14,8 @@ from apnc.report.encoding import Signal
 from apnc.report.figure import Figure
 from apnc.report.figures import gait, phases
 from apnc.report.html import page
+from apnc.report.lines import Run
 from apnc.report.page import drawable
-from apnc.report.panels import Run
 from apnc.report.theme import leg_colours
 from apnc.tune import figures
 from apnc.tune.log import read_rows

@@ -12,7 +12,7 @@ from apnc.loop.experiment import Experiment
 from apnc.report import theme
 from apnc.report.encoding import Signal
 from apnc.report.figure import Figure, Trace
-from apnc.report.panels import line
+from apnc.report.lines import line
 from apnc.studies.plots import COLOURS
 from apnc.studies.results import STRICT, Result, cells_in, is_number, matching
 from apnc.studies.study import WALK_MI, Robot, Study

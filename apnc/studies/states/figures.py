@@ -18,7 +18,7 @@ from apnc.loop.simulate import simulate
 from apnc.report import theme
 from apnc.report.figure import Figure, Trace
 from apnc.report.figures import all_figures
-from apnc.report.panels import Run, line, stacked
+from apnc.report.lines import Run, line, stacked
 from apnc.studies.intervals import marked
 from apnc.studies.plots import side_by_side
 from apnc.studies.results import Result, values

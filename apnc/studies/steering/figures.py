@@ -17,7 +17,7 @@ from apnc.loop.simulate import simulate
 from apnc.report import theme
 from apnc.report.encoding import Signal
 from apnc.report.figure import Figure, Trace
-from apnc.report.panels import Run, line, stacked
+from apnc.report.lines import Run, line, stacked
 from apnc.studies.intervals import Interval, marked
 from apnc.studies.plots import COLOURS, side_by_side
 from apnc.studies.results import Result, matching, values

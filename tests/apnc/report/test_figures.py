@@ -14,7 +14,7 @@ from apnc.features import walk_features
 from apnc.loop.record import Record
 from apnc.report import figures, theme
 from apnc.report.figure import Figure
-from apnc.report.panels import Run
+from apnc.report.lines import Run
 from apnc_core.types import Array
 from apnc_plant.ground import Ground, Kerb, Obstacles, Plane
 from apnc_plant.signals import PLANT_SIGNALS

@@ -7,7 +7,7 @@ from records import synthetic_record
 from apnc.features import walk_features
 from apnc.loop.columns import column_names
 from apnc.report.figures import all_figures
-from apnc.report.panels import Run
+from apnc.report.lines import Run
 from apnc_plant.signals import JOINT_SIGNS
 from research.docs import DOCS
 from research.docs.record import page

@@ -1,4 +1,4 @@
-"""What the panels of a report are made from: lines, and rows of lines over one time axis."""
+"""What figures over time are made from: the run, its lines, and rows of lines over one axis."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _ROW: Final = 78
 
 @dataclass(frozen=True)
 class Run:
-    """What every panel is made from.
+    """What every figure of a walk is made from.
 
     Args:
         record: the run, with at least one sample.
