@@ -9,10 +9,11 @@ from typing import Any, Final
 from apnc.report import theme
 from apnc.report.figure import Figure, Trace
 from apnc.report.lines import stacked
+from apnc.tune.aims import AIM_ALONE, AIM_LIFT, AIM_SLIP
 from apnc.tune.log import CHECK, Row
 from apnc.tune.measured import MAX_SLIP, MIN_LIFT, MIN_SPEED
 from apnc.tune.runs import MARGIN
-from apnc.tune.validation import AIM_ALONE, AIM_LIFT, AIM_SLIP, Cell, Validation, percent
+from apnc.tune.validation import Cell, Validation, percent
 
 KINDS: Final = (
     ("walk", "with ANC", theme.BLUE, "circle", "solid"),

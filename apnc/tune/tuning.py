@@ -18,6 +18,7 @@ from apnc.tune.evaluate import Evaluator, Stopped, cluster
 from apnc.tune.log import Log
 from apnc.tune.measured import target
 from apnc.tune.search import Best, Count, search
+from apnc.tune.span import found_range
 from apnc.tune.tuned_file import path_of, read_back, tuned_text
 from apnc.tune.validation import SEEDS, Validation, validated
 from apnc_core import __version__
@@ -154,7 +155,8 @@ def tune(
             start, evaluator, lines, seed=seed, candidates=candidates, progress=told
         )
         again = _command(robot, seed, count, mi, allowed, paper)
-        found = replace(best.candidate.robot, mi=_usual(best.candidate))
+        found = best.candidate.robot if paper else _within(best)
+        found = replace(found, mi=_usual(Candidate(found, best.candidate.values)))
         text = tuned_text(robot, found, [f"Tuned by {again}, version {__version__}."])
         tuned = read_back(text)
         candidate = Candidate(tuned, best.candidate.values)
@@ -163,6 +165,13 @@ def tune(
         except Stopped:
             validation = None
     return Tuned(text, tuned, description, best, count, validation, again)
+
+
+def _within(best: Best) -> RobotDescription:
+    """The robot with the part of its MI range in which it walks as it should."""
+    robot = best.candidate.robot
+    assert robot.mi_range is not None
+    return replace(robot, mi_range=found_range(robot.mi_range, best.runs))
 
 
 def _usual(candidate: Candidate) -> float:

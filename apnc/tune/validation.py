@@ -10,6 +10,7 @@ from statistics import median
 from typing import Final, NamedTuple
 
 from apnc import metrics
+from apnc.tune.aims import AIM_ALONE, AIM_LIFT, AIM_SLIP
 from apnc.tune.design import Candidate, Start
 from apnc.tune.evaluate import Evaluator
 from apnc.tune.measured import Measured
@@ -22,15 +23,6 @@ SEEDS: Final = 20
 
 AIMS: Final = 9
 """Number of aims of a validation."""
-
-AIM_ALONE: Final = 0.9
-"""Share of walks without couplings that are to form the gait [1]."""
-
-AIM_LIFT: Final = 0.05
-"""Lift of every foot that is aimed at [L]."""
-
-AIM_SLIP: Final = 0.18
-"""Slip of every foot that is aimed at, as a share of the stride [1]."""
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Final
 
 from apnc.report.wording import Verdict
+from apnc.tune.aims import AIM_ALONE
 from apnc.tune.runs import MARGIN
 from apnc.tune.tuned_file import changes
 from apnc.tune.tuning import Tuned
-from apnc.tune.validation import AIM_ALONE, AIMS, Validation, in_words, percent
+from apnc.tune.validation import AIMS, Validation, in_words, percent
 from apnc_core.variables import variable_named
 
 COLUMNS: Final = (

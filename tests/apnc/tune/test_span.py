@@ -1,0 +1,66 @@
+"""The MI range of a tuned robot is where its walks of a check are good."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from apnc.tune.measured import Measured
+from apnc.tune.span import found_range
+
+GOOD = Measured("walk", 0.0, 1.0, True, 2.0, 0.3, 0.0, 0.15, 0.08, 0.10, 0.0, 0.0, 0.0, 1.0)
+RANGE = (0.08, 0.32)
+COUNT = 11
+
+
+def check(bad: dict[tuple[str, int], dict[str, object]]) -> list[Measured]:
+    """Runs at eleven even steps; some of them differ from a good one, by kind and step."""
+    return [
+        replace(GOOD, kind=kind, share=k / (COUNT - 1), **bad.get((kind, k), {}))
+        for kind in ("walk", "apc")
+        for k in range(COUNT)
+    ]
+
+
+def mi(step: int) -> float:
+    return 0.08 * 4.0 ** (step / (COUNT - 1))
+
+
+def test_the_whole_range_where_all_is_good() -> None:
+    assert found_range(RANGE, check({})) == RANGE
+
+
+def test_ends_at_which_the_gait_does_not_form_are_left_out() -> None:
+    bad = {
+        ("walk", 0): {"strict": False},
+        ("apc", 1): {"strict": False},
+        ("apc", 10): {"lift": 0.0},
+    }
+    assert found_range(RANGE, check(bad)) == pytest.approx((mi(2), mi(9)), rel=1e-2)
+
+
+def test_feet_that_slip_more_than_aimed_at_are_left_out_while_enough_is_left() -> None:
+    slips = {"slip": 0.22}
+    assert found_range(RANGE, check({("walk", 0): slips}))[0] == pytest.approx(mi(1), rel=1e-2)
+    everywhere = {("walk", k): slips for k in range(COUNT)}
+    assert found_range(RANGE, check(everywhere)) == RANGE
+
+
+def test_the_longer_of_two_parts() -> None:
+    assert found_range(RANGE, check({("walk", 3): {"strict": False}})) == pytest.approx(
+        (mi(4), mi(10)), rel=1e-2
+    )
+
+
+def test_couplings_alone_are_better_than_nothing() -> None:
+    alone = {("apc", k): {"strict": False} for k in range(COUNT)}
+    assert found_range(RANGE, check(alone | {("walk", 0): {"strict": False}})) == pytest.approx(
+        (mi(1), mi(10)), rel=1e-2
+    )
+
+
+def test_less_than_half_is_no_range() -> None:
+    fails = {"strict": False}
+    bad = {("walk", k): fails for k in range(0, COUNT, 3)}
+    assert found_range(RANGE, check(bad)) == RANGE
