@@ -8,17 +8,17 @@ from typing import Final
 
 import numpy as np
 
-from apnc.tune.measured import Measured
+from apnc.tune.measured import MAX_SLIP, MIN_LIFT, MIN_SPEED, Measured
 from apnc.tune.paper import cost_of_paper, cost_of_ratio
 from apnc.tune.runs import GAIT_KINDS, Task
 
-FAILED: Final = 8.0
+FAILED: Final = 14.0
 """Cost of a run whose robot fell at once or whose motion diverged."""
 
 SPARED: Final = 0.3
 """What of it a run is spared whose robot falls at the end, as a share of it."""
 
-MILD: Final = 4.0
+MILD: Final = 7.0
 """Cost up to which a run that does not fall costs as much as it does badly. Above, costs grow
 less and less and stay below that of any fall: a search is never paid for throwing a robot over."""
 
@@ -43,13 +43,31 @@ def cost_of(run: Measured) -> float:
 def _cost_of_gait(run: Measured) -> float:
     """Cost of a run that is to show the gait, and did not fall."""
     cost = 2.0 * min(run.mean_error / np.pi, 1.0) + 1.5 * run.end_error
-    cost += 0.4 * (not run.strict) + 0.4 * (not run.walks)
+    cost += 0.4 * (not run.strict) + _cost_of_no_walk(run)
     wanted = WANTED_SPEED[0] + WANTED_SPEED[1] * run.share
     cost += 1.5 * min(1.0, max(0.0, 1.0 - run.speed / wanted))
     cost += 2.0 * run.saturated + 0.02 * run.transport
     if run.kind in ("walk", "apc"):
         cost += run.feet + 0.25 * math.log1p(abs(run.turning) / WANTED_TURN)
     return cost
+
+
+def _cost_of_no_walk(run: Measured) -> float:
+    """Cost of a run that is no walk, by how far it is from one; 0 of a walk.
+
+    It is as large as that of a gait that does not form: else a search finds robots that slide or
+    creep in a perfect gait, and is not led away from them.
+    """
+    if run.walks:
+        return 0.0
+    return 1.0 + sum(
+        min(1.0, max(0.0, missing))
+        for missing in (
+            1.0 - run.speed / MIN_SPEED,
+            1.0 - run.lift / MIN_LIFT,
+            run.slip / MAX_SLIP - 1.0,
+        )
+    )
 
 
 def total(tasks: Sequence[Task], runs: Sequence[Measured], *, paper: bool = False) -> float:

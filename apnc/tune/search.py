@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import importlib
+import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
+
+import numpy as np
 
 from apnc.extras import missing
 from apnc.tune.costs import total
@@ -23,6 +26,12 @@ CANDIDATES: Final = 16
 
 SIGMA: Final = 0.15
 """First standard deviation, as a share of each range."""
+
+SCOUTS: Final = 4
+"""Generations at the beginning that look around the start; the search begins at their best."""
+
+SCOUT_SIGMA: Final = 0.25
+"""Standard deviation of their candidates, as a share of each range."""
 
 CHECK_EVERY: Final = 4
 """Generations from one check of the favourite to the next."""
@@ -109,7 +118,9 @@ def search(
             points = strategy.ask()
             costs = log.costs(count.generations, points)
             if costs is None:
-                costs = _costs(start, evaluator, points, 1000 * seed + count.generations, count)
+                # scouts walk the same runs, so that their costs can be compared
+                number = max(count.generations, SCOUTS)
+                costs = _costs(start, evaluator, points, 1000 * seed + number, count)
                 log.write(count.generations, points, costs)
             else:
                 count.resumed += len(points)
@@ -182,7 +193,10 @@ class _Checks:
 
 
 class _Strategy:
-    """CMA-ES that begins anew around its favourite, with more candidates, when it has converged."""
+    """Scouts around the start; then CMA-ES, which begins at the best of them.
+
+    When it has converged, it begins anew around its favourite, with more candidates.
+    """
 
     def __init__(self, start: Start, seed: int) -> None:
         try:
@@ -191,7 +205,9 @@ class _Strategy:
             raise RuntimeError(missing("cma", "tune")) from None
         self._seed, self._size = seed, CANDIDATES
         self.favourite: list[float] = start.first()
-        self._begin()
+        self._scouts, self._least = SCOUTS, math.inf
+        self._rng, self._first = np.random.default_rng(seed), np.array(self.favourite)
+        self._now: Any = None
 
     def _begin(self) -> None:
         options = {
@@ -201,7 +217,14 @@ class _Strategy:
 
     def ask(self) -> list[Array]:
         """Points of the next generation."""
-        if self._now.stop():
+        if self._scouts:
+            steps = SCOUT_SIGMA * self._rng.normal(size=(self._size, len(self._first)))
+            if self._scouts == SCOUTS:
+                steps[0] = 0.0
+            return list(np.clip(self._first + steps, 0.0, 1.0))
+        if self._now is None:
+            self._begin()
+        elif self._now.stop():
             self._seed += 1
             self._size = round(1.5 * self._size)
             self._begin()
@@ -210,5 +233,11 @@ class _Strategy:
 
     def tell(self, points: Sequence[Array], costs: Sequence[float]) -> None:
         """Costs of the points."""
+        if self._scouts:
+            self._scouts -= 1
+            best = int(np.argmin(costs))
+            if costs[best] < self._least:
+                self._least, self.favourite = costs[best], [float(x) for x in points[best]]
+            return
         self._now.tell(points, costs)
         self.favourite = [min(max(float(x), 0.0), 1.0) for x in self._now.result.xfavorite]
