@@ -86,7 +86,10 @@ def reached(rows: Sequence[Row], limit: str, controller: str, column: str) -> li
 
 
 def _told(rows: Sequence[Row], limit: str, controller: str, column: str) -> str:
-    """How far it goes, with counts: ``12 (20/20), not 14 (11/20)``."""
+    """How far it goes, with counts: ``12 (20/20), not 14 (11/20)``.
+
+    "all" says that it does to the last value, "at least" that harder values were not walked.
+    """
     found = reached(rows, limit, controller, column)
     if not found:
         return "not run"
@@ -97,7 +100,8 @@ def _told(rows: Sequence[Row], limit: str, controller: str, column: str) -> str:
 
     last = found[-1]
     if int(last[column]) >= ENOUGH * int(last["runs"]):
-        return f"all, to {text(last)}"
+        whole = float(last["value"]) == LIMITS[limit].values[-1]
+        return f"{'all, to' if whole else 'at least'} {text(last)}"
     return f"{text(found[-2])}, not {text(last)}" if len(found) > 1 else f"no: {text(last)}"
 
 

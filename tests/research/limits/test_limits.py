@@ -75,8 +75,10 @@ def test_the_table_ends_at_the_first_value_that_does_not_work() -> None:
     lines = limits.counts_table(rows).splitlines()
     assert lines[2:] == [
         "| slope up | deg | 4 (5/5), not 6 (0/5) | nothing (5/5), not 2 (0/5) |",
-        "| slope down | deg | all, to 2 (5/5) | nothing (5/5), not 2 (0/5) |",
+        "| slope down | deg | at least 2 (5/5) | nothing (5/5), not 2 (0/5) |",
     ]
     never = [row | {"works": 0} for row in rows]
     assert "no: nothing (0/5)" in limits.counts_table(never)
-    assert "all, to 8 (5/5)" in limits.counts_table(rows, "upright")
+    assert "at least 8 (5/5)" in limits.counts_table(rows, "upright")
+    last = [row | {"value": 32.0} if row["value"] == 8.0 else row for row in rows]
+    assert "all, to 32 (5/5)" in limits.counts_table(last, "upright")
