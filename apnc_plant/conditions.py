@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from types import MappingProxyType
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 from pydantic import AfterValidator, BeforeValidator
 
@@ -14,8 +14,10 @@ from apnc_core.frozen import Frozen
 from apnc_core.in_python import in_python
 from apnc_plant.files import Number, checked, limits
 from apnc_plant.robot.leg_names import by_place, leg_named
-from apnc_plant.robot.model import RobotDescription
 from apnc_plant.robot.size import times_longer
+
+if TYPE_CHECKING:
+    from apnc_plant.robot.model import RobotDescription
 
 ALL: Final = "*"
 """Means every leg of a robot."""

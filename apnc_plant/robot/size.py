@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-from apnc_plant.robot.model import RobotDescription
+if TYPE_CHECKING:
+    from apnc_plant.robot.model import RobotDescription
 
 LILIBOT_MASS: Final = 2.5
 """Mass of Lilibot [kg]."""
