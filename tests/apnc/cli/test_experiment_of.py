@@ -21,6 +21,7 @@ from apnc import Experiment, Gait, Kerb, Obstacles, Plane, Waves, write_gait
 from apnc.cli.app import app
 from apnc.cli.walk import experiment_of
 from apnc.controllers import CONTROLLERS
+from apnc.loop.experiment import conditions_of
 from apnc.loop.provenance import what_was_run
 from apnc.studies import terrain
 from apnc_core.schema import Causality, Shape, Type
@@ -156,20 +157,22 @@ def test_short_forms_of_the_ground() -> None:
         (["--slope", "90"], "slope is 1.57"),
         (["--params", "no.json"], "no.json: cannot be read"),
         (["--robot", "hexapod", "--gait", "gait.json"], "the gait is of legs RF, RH, LF, LH"),
-        (["--robot", "tripod.toml", "--condition", "C3"], "leg 'RF' is not one of"),
     ],
 )
 def test_what_does_not_fit_is_said_before_the_run(
     words: list[str], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from apnc_plant.robot import ROBOTS  # noqa: PLC0415
-
     monkeypatch.chdir(tmp_path)
     write_gait(Gait(("RF", "RH", "LF", "LH"), (3.1, 3.1, 0.0)), Path("gait.json"))
-    other = (ROBOTS / "lilibot.toml").read_text().replace('"RF"', '"FR"')
-    Path("tripod.toml").write_text(other)
     with pytest.raises(ValueError, match=re.escape(message)):
         said(*words)
+
+
+def test_a_condition_is_of_the_leg_at_its_place_whatever_its_name(tmp_path: Path) -> None:
+    path = tmp_path / "other.toml"
+    path.write_text((ROBOTS / "lilibot.toml").read_text().replace('"RF"', '"FR"'))
+    found = said("--robot", str(path), "--condition", "C3")
+    assert conditions_of(found.conditions, found.description).damaged == ("FR",)
 
 
 def test_a_summary_gives_its_parameters_to_another_run(tmp_path: Path) -> None:
