@@ -26,8 +26,8 @@ BEYOND: Final = 1e4
 def render(record: Record, summary: WalkFeatures) -> str:
     """HTML text of the report of a run, however the run ended.
 
-    Pitfall: it contains plotly.js (packed, 0.5 MB) and the part of the record that it shows, most of
-    it in 16 bits. The whole record is in ``record.csv``.
+    Pitfall: it contains plotly.js (packed, 0.5 MB) and the part of the record that it shows, most
+    of it in 16 bits. The whole record is in ``record.csv``.
     """
     shown = drawable(record)
     run = Run(shown, summary) if len(shown) else None

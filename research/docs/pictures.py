@@ -20,7 +20,7 @@ FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-
 COLLECT = """<script>
 window.addEventListener("load", async () => {
   const pictures = {};
-  if (typeof apnc !== "undefined") { await apnc.plotly; apnc.drawAll(); } // else a page of plotly's own
+  if (typeof apnc !== "undefined") { await apnc.plotly; apnc.drawAll(); } // else plotly's own
   for (const plot of document.querySelectorAll(".js-plotly-plot")) {
     const size = { format: "svg", width: 1000, height: plot.offsetHeight };
     const url = await Plotly.toImage(plot, size);
