@@ -40,6 +40,9 @@ HELD_S: Final = 3.0
 HELD_AT: Final = 0.06
 """Height at which it hangs above its start, in leg lengths: no foot reaches the ground."""
 
+RANGE_SEEDS: Final = 4
+"""Seeds at each MI of the runs that show the range."""
+
 MI_COUNT: Final = 5
 """Number of MI at which a candidate walks in a generation, and in a validation."""
 
@@ -152,6 +155,17 @@ def of_check(
         return tasks
     others = (extra(start, each, [each.robot], number) for number in range(3))
     return tasks + [task for more in others for task in more]
+
+
+def of_range(start: Start, each: Candidate, *, count: int = 11) -> list[Task]:
+    """Runs that show over which part of its MI range a robot walks, with seeds of their own."""
+    seeds = range(_SEEDS + 2**16, _SEEDS + 2**16 + RANGE_SEEDS)
+    return [
+        _task(start, each, kind, float(share), CHECK_S, Conditions(), seed=seed)
+        for kind in ("walk", "apc")
+        for share in np.linspace(_LEAST, _MOST, count)
+        for seed in seeds
+    ]
 
 
 def of_validation(start: Start, each: Candidate, seeds: int) -> Iterator[Task]:

@@ -18,37 +18,36 @@ DIGITS: Final = 3
 def found_range(mi: tuple[float, float], runs: Sequence[Measured]) -> tuple[float, float]:
     """The longest part of an MI range over which a robot walks as it should.
 
-    It is that in which both its walks of a check, with and without couplings, are good and its feet
-    lift and hold as aimed at; if that is too short, that in which both are good; then that in which
-    it walks well with couplings; else the whole range.
+    It is that in which all its walks, with and without couplings, are good and its feet lift and
+    hold as aimed at; if that is too short, that in which all are good; then that in which it walks
+    well with couplings; else the whole range.
 
     Args:
         mi: the range, lowest and highest MI.
-        runs: of a check, which has both kinds at the same even steps of log MI.
+        runs: of both kinds at even steps of log MI, see ``runs.of_range``.
     """
-    walks = sorted((run for run in runs if run.kind == "walk"), key=lambda run: run.share)
-    alone = sorted((run for run in runs if run.kind == "apc"), key=lambda run: run.share)
-    pairs = list(zip(walks, alone, strict=True))
+    steps = sorted({run.share for run in runs})
+    at = [[run for run in runs if run.share == share] for share in steps]
     low, high = mi
     for fits in (_as_aimed, _good, _with_couplings):
-        begin, end = _longest([fits(*pair) for pair in pairs])
-        if end - begin >= LEAST * (len(pairs) - 1):
-            shares = pairs[begin][0].share, pairs[end][0].share
+        begin, end = _longest([all(map(fits, each)) for each in at])
+        if end - begin >= LEAST * (len(steps) - 1):
+            shares = steps[begin], steps[end]
             first, last = (float(f"{low * (high / low) ** s:.{DIGITS}g}") for s in shares)
             return max(first, low), min(last, high)
     return mi
 
 
-def _with_couplings(walk: Measured, _: Measured) -> bool:
-    return walk.good
+def _with_couplings(run: Measured) -> bool:
+    return run.good or run.kind == "apc"
 
 
-def _good(walk: Measured, alone: Measured) -> bool:
-    return walk.good and alone.good
+def _good(run: Measured) -> bool:
+    return run.good
 
 
-def _as_aimed(walk: Measured, alone: Measured) -> bool:
-    return _good(walk, alone) and walk.lift >= AIM_LIFT and walk.slip <= AIM_SLIP
+def _as_aimed(run: Measured) -> bool:
+    return run.good and (run.kind == "apc" or (run.lift >= AIM_LIFT and run.slip <= AIM_SLIP))
 
 
 def _longest(good: Sequence[bool]) -> tuple[int, int]:

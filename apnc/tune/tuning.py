@@ -17,6 +17,7 @@ from apnc.tune.design import MI_AIMED, MI_OF_PAPER, Candidate, Start, variables_
 from apnc.tune.evaluate import Evaluator, Stopped, cluster
 from apnc.tune.log import Log
 from apnc.tune.measured import target
+from apnc.tune.runs import of_range
 from apnc.tune.search import Best, Count, search
 from apnc.tune.span import found_range
 from apnc.tune.tuned_file import path_of, read_back, tuned_text
@@ -155,23 +156,30 @@ def tune(
             start, evaluator, lines, seed=seed, candidates=candidates, progress=told
         )
         again = _command(robot, seed, count, mi, allowed, paper)
-        found = best.candidate.robot if paper else _within(best)
+        last = replace(evaluator, stop=stop)
+        found = best.candidate.robot if paper else _within(start, best.candidate, last)
         found = replace(found, mi=_usual(Candidate(found, best.candidate.values)))
         text = tuned_text(robot, found, [f"Tuned by {again}, version {__version__}."])
         tuned = read_back(text)
         candidate = Candidate(tuned, best.candidate.values)
         try:
-            validation = validated(start, candidate, replace(evaluator, stop=stop), seeds)
+            validation = validated(start, candidate, last, seeds)
         except Stopped:
             validation = None
     return Tuned(text, tuned, description, best, count, validation, again)
 
 
-def _within(best: Best) -> RobotDescription:
-    """The robot with the part of its MI range in which it walks as it should."""
-    robot = best.candidate.robot
-    assert robot.mi_range is not None
-    return replace(robot, mi_range=found_range(robot.mi_range, best.runs))
+def _within(start: Start, best: Candidate, evaluator: Evaluator) -> RobotDescription:
+    """The robot with the part of its MI range in which it walks as it should.
+
+    If it was stopped before that was walked, the range stays whole.
+    """
+    assert best.robot.mi_range is not None
+    try:
+        runs = evaluator(of_range(start, best))
+    except Stopped:
+        return best.robot
+    return replace(best.robot, mi_range=found_range(best.robot.mi_range, runs))
 
 
 def _usual(candidate: Candidate) -> float:
