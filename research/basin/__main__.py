@@ -12,6 +12,7 @@ from typer import Option
 from apnc.cli.console import bar, say, say_file, writable
 from apnc.cli.interrupt import STOP, Interrupted
 from apnc.cli.main import main as run_app
+from apnc.studies.machine import commit
 from research.basin.ends import counts, counts_table
 from research.basin.runner import SECONDS, TABLE_FILE, grid_of, run
 
@@ -51,7 +52,8 @@ def basin(
             progress=progress,
             stop=STOP,
         )
-    (output / "basin.md").write_text(text := counts_table(counts(results)), encoding="utf-8")
+    text = counts_table(counts(results))
+    (output / "basin.md").write_text(f"- commit: {commit()}\n\n{text}", encoding="utf-8")
     say(text)
     say_file(f"{len(results)} walks; table", output / TABLE_FILE)
     if STOP.asked:

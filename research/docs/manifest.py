@@ -41,8 +41,9 @@ USUAL: Final = "lilibot"
 Manifest = dict[str, dict[str, Any]]
 """Entries by file below ``docs``, or by mark of a table, such as ``table gait``.
 
-An entry has ``commit`` and ``robots``, the hash of the motion by robot. A result of former robots,
-which the page shows as such, has ``former`` in place of them: a text that says so.
+An entry has ``commit`` and ``robots``, the hash of the motion by robot, and may say more. A result
+of former robots, which the page shows as such, has ``former`` in place of them: a text that says
+so.
 """
 
 
@@ -79,14 +80,17 @@ def entries() -> Manifest:
     return found
 
 
-def note(robots: Iterable[str], *results: Path | str) -> None:
+def note(robots: Iterable[str], *results: Path | str, at: str = "", **more: Any) -> None:
     """Write the entries of results that were measured with the present code.
 
     Args:
         robots: names of the shipped robots that they were measured on.
         results: files or pages below ``docs``, or marks of tables.
+        at: commit at which they were measured; the present one if omitted.
+        more: further values of the entry, such as how much was walked.
     """
-    entry = {"commit": commit(), "robots": {robot: motion(robot) for robot in sorted(set(robots))}}
+    moved = {robot: motion(robot) for robot in sorted(set(robots))}
+    entry = {"commit": at or commit(), "robots": moved, **more}
     names = [name_of(result) for result in results]
     text = json.dumps(entries() | dict.fromkeys(names, entry), indent=1, sort_keys=True)
     FILE.write_text(text + "\n", encoding="utf-8")

@@ -11,6 +11,7 @@ made from the files; pictures need Chromium.
 from __future__ import annotations
 
 import csv
+import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -21,7 +22,7 @@ from apnc.studies.table import markdown
 from research import limits, robustness
 from research.basin import ends, pushes
 from research.docs import DOCS
-from research.docs.manifest import note, robots_in
+from research.docs.manifest import entries, name_of, note, robots_in
 from research.docs.put_table import put
 from research.docs.reach_pictures import draw
 from research.robustness import numbers
@@ -29,7 +30,6 @@ from research.robustness import numbers
 Row = dict[str, Any]
 
 TABLE_FILE: Final = "trials.csv"
-SIZES: Final = DOCS / "data" / "reach_sizes.csv"
 
 
 class Kept(NamedTuple):
@@ -112,39 +112,56 @@ def keep(folder: Path) -> None:
     (name,) = {result["study"] for result in results}
     write(data_of(name), STUDIES[name].counts(results))
     seconds = sorted({float(result["duration"]) for result in results if result.get("duration")})
-    size = {
-        "study": name,
-        "walks": len(results),
-        "seconds": " and ".join(f"{each:g}" for each in seconds),
-        "seeds": len({result["seed"] for result in results}),
-        "commit": commit(),
-    }
-    sizes = {row["study"]: row for row in (read(SIZES) if SIZES.is_file() else [])}
-    write(SIZES, [row for _, row in sorted((sizes | {name: size}).items())])
-    note(robots_in(folder / TABLE_FILE), data_of(name))
+    note(
+        robots_in(folder / TABLE_FILE),
+        data_of(name),
+        *STUDIES[name].tables,
+        size_of(STUDIES[name].page),
+        at=measured_at(folder),
+        walks=len(results),
+        seconds=" and ".join(f"{each:g}" for each in seconds),
+        seeds=len({result["seed"] for result in results}),
+    )
 
 
-def sizes_table(rows: Sequence[Row], page: str) -> str:
+def measured_at(folder: Path) -> str:
+    """Commit that the report in the folder of a study names; the present one if none does."""
+    for path in sorted(folder.glob("*.md")):
+        if found := re.search(r"^- commit: (\S+)$", path.read_text("utf-8"), re.MULTILINE):
+            return found[1]
+    return commit()
+
+
+def size_of(page: str) -> str:
+    """Mark of the table of how much was walked for a page."""
+    return f"{Path(page).stem}-size"
+
+
+def sizes_table(page: str) -> str:
     """A line per study of a page: how much was walked for it."""
+    found = {
+        name: entries()[name_of(data_of(name))]
+        for name, study in STUDIES.items()
+        if study.page == page
+    }
     return markdown(
         {
-            "`python -m research.`": f"`{row['study']}`",
-            "walks": f"{row['walks']:,}",
-            "length of a walk [s]": str(row["seconds"]),
-            "seeds": str(row["seeds"]),
-            "commit": str(row["commit"]),
+            "`python -m research.`": f"`{name}`",
+            "robot": ", ".join(entry["robots"]),
+            "walks": f"{entry['walks']:,}",
+            "length of a walk [s]": entry["seconds"],
+            "seeds": str(entry["seeds"]),
+            "commit": entry["commit"],
         }
-        for row in rows
-        if STUDIES[str(row["study"])].page == page
+        for name, entry in found.items()
     )
 
 
 def write_pages() -> None:
     """Put all tables below their marks."""
-    sizes = read(SIZES)
     for page in dict.fromkeys(study.page for study in STUDIES.values()):
         path = DOCS / page
-        text = put(path.read_text("utf-8"), "size", sizes_table(sizes, page))
+        text = put(path.read_text("utf-8"), size_of(page), sizes_table(page))
         for name, study in STUDIES.items():
             if study.page == page:
                 rows = read(data_of(name))

@@ -68,12 +68,25 @@ def experiment(
     )
 
 
+def _outward(known: Known) -> set[int]:
+    """Levels of a number that change the robot."""
+    lowest = 1 if known.only_above else -LEVELS
+    return set(range(lowest, LEVELS + 1)) - {0}
+
+
 def counts(results: Sequence[Result]) -> list[Row]:
-    """How many runs formed the gait by the strict criterion, in each cell of the grid."""
+    """How many runs formed the gait by the strict criterion, in each cell of the grid.
+
+    A number that was not walked at all levels yet is left out, but for the robot as it is.
+    """
+    levels: dict[str, set[int]] = {}
+    for result in results:
+        levels.setdefault(result["number"], set()).add(int(result["level"]))
     cells: dict[tuple[Any, ...], list[Result]] = {}
     for result in results:
-        cell = tuple(result[name] for name in CELL)
-        cells.setdefault(cell, []).append(result)
+        number, level = result["number"], int(result["level"])
+        if level == 0 or levels[number] >= _outward(KNOWN[number]):
+            cells.setdefault(tuple(result[name] for name in CELL), []).append(result)
     return [
         dict(zip(CELL, cell, strict=True)) | {"runs": len(own), "strict": sum(successes(own))}
         for cell, own in cells.items()
@@ -90,6 +103,11 @@ def formed(rows: Sequence[Row], number: str, controller: str) -> dict[tuple[str,
         for row in rows
         if row["controller"] == controller and (row["number"] == number or int(row["level"]) == 0)
     }
+
+
+def _walked_numbers(rows: Sequence[Row]) -> list[str]:
+    """Numbers that were walked off their value."""
+    return list(dict.fromkeys(row["number"] for row in rows if int(row["level"]) != 0))
 
 
 def walks_judged(rows: Sequence[Row], controller: str) -> list[str]:
@@ -140,7 +158,7 @@ def counts_table(rows: Sequence[Row]) -> str:
         for label in dict.fromkeys(row["controller"] for row in rows)
         if (walks := ", ".join(walks_judged(rows, label)) or "no walk")
     }
-    for number in dict.fromkeys(row["number"] for row in rows):
+    for number in _walked_numbers(rows):
         known = KNOWN[number]
         line = {
             "number": number,
@@ -161,9 +179,7 @@ def bars(rows: Sequence[Row], *, shifts: bool) -> list[Trace]:
         shifts: draw the numbers that are shifted, else those that are multiplied.
     """
     numbers = [
-        number
-        for number in reversed(dict.fromkeys(row["number"] for row in rows))
-        if bool(KNOWN[number].unit) is shifts
+        number for number in reversed(_walked_numbers(rows)) if bool(KNOWN[number].unit) is shifts
     ]
     names = [_label(number) for number in numbers]
     traces: list[Trace] = []

@@ -90,6 +90,14 @@ def test_the_robot_as_it_is_walks_once_for_all_numbers(rows: list[dict[str, Any]
     assert numbers.limits([*others, *own], "noise of the sensors", "apnc") == (-2, 2)
 
 
+def test_a_number_that_was_not_walked_at_all_levels_is_left_out() -> None:
+    axes = {"number": ("friction",), "level": range(-9, 11), "walk": ("MI 0.08",)}
+    results = made_up(axes, lambda cell: {STRICT: 1.0}, ("apnc",), 1, study="robustness.numbers")
+    rows = numbers.counts(results)
+    assert [row["level"] for row in rows] == [0]
+    assert len(numbers.counts_table(rows).splitlines()) == 2
+
+
 def test_a_bar_reaches_from_limit_to_limit(rows: list[dict[str, Any]]) -> None:
     apc, bar, *_ = numbers.bars(rows, shifts=False)
     assert (apc["name"], bar["name"]) == ("APC alone", "APNC")  # the first is drawn lowest
