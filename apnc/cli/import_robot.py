@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, Option
 
 from apnc.cli.console import apart, file_option, say, show_table, writable
+from apnc_plant.signals import JOINTS
 
 if TYPE_CHECKING:
     from apnc.importing import ImportedRobot
@@ -44,11 +45,12 @@ def _say(found: ImportedRobot, file: Path) -> None:
     length = robot.legs[0].femur_length + robot.legs[0].tibia_length
     say(f"{file.name}: {robot.name}, {robot.mass:.4g} kg, {len(robot.legs)} legs of {length:.3g} m")
     say("\nlegs; q is the angle here [rad]")
+    joints = {(each.leg, each.joint): each.words() for each in robot.joint_map}
     show_table(
         (
             [
                 leg.name,
-                *(each.words() for each in robot.joint_map if each.leg == leg.name),
+                *(joints.get((leg.name, joint), "") for joint in JOINTS),
                 own.foot.name,
             ]
             for leg, own in zip(robot.legs, found.legs, strict=True)

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from apnc.importing.legs import LegGeometry
 from apnc.importing.stance import Stance
 from apnc_plant.robot import JointMap
-from apnc_plant.signals import JOINTS
 
 
 def joint_maps(
@@ -19,14 +18,11 @@ def joint_maps(
         names: of the legs.
         legs: the legs.
         stance: its angles are those of the reference pose.
-
-    A positive hip angle swings the femur forward, that is less back of vertical. A positive knee
-    angle flexes the knee, wherever it lies.
     """
     found = []
-    for name, leg, femur, tibia in zip(names, legs, stance.femur, stance.tibia, strict=True):
-        counted = ((0.0, 1.0), (femur, -1.0), (tibia, -1.0 if tibia < 0.0 else 1.0))
-        for joint, turn, (angle, sign) in zip(JOINTS, leg.turns, counted, strict=True):
-            offset, signed = turn.in_file(angle), round(sign * turn.sign)
+    for name, leg, pose in zip(names, legs, stance.poses, strict=True):
+        for joint, (angle, sign) in leg.counted(pose.tibia).items():
+            turn = leg.turns[angle]
+            offset, signed = turn.in_file(getattr(pose, angle)), round(sign * turn.sign)
             found.append(JointMap(name, joint, turn.joint.name, signed, offset))
     return tuple(found)

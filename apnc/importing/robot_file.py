@@ -10,13 +10,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from apnc.importing.legs import LegGeometry
+from apnc.importing.legs import LegGeometry, Pose
 from apnc.importing.model import ModelFileError
 from apnc.importing.scaling import Guessed
 from apnc.importing.stance import Stance
 from apnc_core.types import Array
 from apnc_plant.robot import JointMap, MassProperties
 from apnc_plant.robot.body import is_of_a_body
+from apnc_plant.robot.model import CHAINS
 
 DIGITS: Final = 14
 """Significant digits of a number in the file."""
@@ -32,6 +33,9 @@ TURN: Final = 2.0 * math.pi - 1e-9
 
 _SAME: Final = 1e-9
 """Relative difference below which an inertia is that of its box, and an outline its edges."""
+
+_LEVEL: Final = 1e-9
+"""Reference angle below which it is 0 [rad]: files round."""
 
 _TOLD: Final = 0.02
 """Change of an inertia by the box that is told."""
@@ -93,10 +97,7 @@ def robot_text(found: Found, source: str) -> Text:
         trunk["outline"] = found.outline[1]
     trunk["com_side_offset"] = found.guessed.com_side_offset
     legs = [
-        _leg(leg, boxes, math.degrees(femur), math.degrees(tibia))
-        for leg, femur, tibia in zip(
-            found.legs, found.stance.femur, found.stance.tibia, strict=True
-        )
+        _leg(leg, boxes, pose) for leg, pose in zip(found.legs, found.stance.poses, strict=True)
     ]
     if all(leg["knee"] == "<" for leg in legs):
         legs = [{key: value for key, value in leg.items() if key != "knee"} for leg in legs]
@@ -136,36 +137,43 @@ def robot_text(found: Found, source: str) -> Text:
     return Text("\n".join(lines) + "\n", boxes.said())
 
 
-def _leg(leg: LegGeometry, boxes: _Boxes, femur_angle: float, tibia_angle: float) -> dict[str, Any]:
-    side = -1.0 if leg.right else 1.0
-    outward = np.array([1.0, side, 1.0])
+def _leg(leg: LegGeometry, boxes: _Boxes, pose: Pose) -> dict[str, Any]:
+    outward = np.array([1.0, leg.side, 1.0])
     mirror = np.outer(outward, outward)
+    names = list(leg.names)
+    if len(names) == 2:  # the link of the joint that it lacks is a part of its neighbour
+        names.insert(2 if leg.has_coxa else 0, names[1 if leg.has_coxa else 0])
     links = {
         key: boxes.box(name, MassProperties(body.mass, body.com * outward, body.inertia * mirror))
-        for key, name, body in zip(("hip", "femur", "tibia"), leg.names, leg.bodies, strict=True)
+        for key, name, body in zip(("hip", "femur", "tibia"), names, leg.bodies, strict=True)
     }
-    return {
+    written: dict[str, Any] = {
         "mount": leg.mount,
         "hip_offset": leg.hip_offset * outward,
         "femur_length": leg.femur,
         "tibia_length": leg.tibia,
-        "femur_angle": femur_angle,
-        "tibia_angle": tibia_angle,
-        **_ranges(leg, side),
-        "knee": ">" if tibia_angle < 0.0 else "<",
-        **links,
+        "femur_angle": math.degrees(pose.femur),
+        "tibia_angle": math.degrees(pose.tibia),
     }
+    if leg.chain != CHAINS[0]:
+        written["chain"] = leg.chain
+    for key, angle in (("abduction_angle", leg.side * pose.abduction), ("pointing", pose.pointing)):
+        if abs(angle) > _LEVEL:
+            written[key] = math.degrees(angle)
+    return written | {**_ranges(leg), "knee": ">" if pose.tibia < 0.0 else "<", **links}
 
 
-def _ranges(leg: LegGeometry, side: float) -> dict[str, tuple[float, float]]:
+def _ranges(leg: LegGeometry) -> dict[str, tuple[float, float]]:
     """Stops of the joints of a leg that has them [deg], y outward."""
     found = {}
-    for key, turn in zip(("abduction_range", "femur_range", "tibia_range"), leg.turns, strict=True):
+    for angle in ("abduction", "femur", "tibia"):
+        if (turn := leg.turns.get(angle)) is None:
+            continue
         low, high = turn.lower, turn.upper
-        if key == "abduction_range":
-            low, high = min(side * low, side * high), max(side * low, side * high)
+        if angle == "abduction":
+            low, high = min(leg.side * low, leg.side * high), max(leg.side * low, leg.side * high)
         if high - low < TURN:
-            found[key] = math.degrees(low), math.degrees(high)
+            found[f"{angle}_range"] = math.degrees(low), math.degrees(high)
     return found
 
 

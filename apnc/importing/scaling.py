@@ -190,9 +190,9 @@ class _Found:
         like, _ = lilibot()
         own, m, L = like.servo, self._m, self._length
         motors = {
-            (k, joint): (turn.joint.name, turn.joint.motor)
+            (k, joint): (leg.turns[angle].joint.name, leg.turns[angle].joint.motor)
             for k, leg in enumerate(legs)
-            for joint, turn in zip(JOINTS, leg.turns, strict=True)
+            for joint, (angle, _) in leg.counted(0.0).items()
         }
         most = LARGEST_EFFORT * self._size.mass * GRAVITY * self._size.length
         stall = self._limits(motors, "effort", most, "N m")
@@ -229,9 +229,14 @@ class _Found:
             found = {at: getattr(motor, of_joint) or 0.0 for at, (_, motor) in motors.items()}
             if any(found.values()):
                 values[key] = found
+        # a joint that a leg lacks is as most others, which takes no line of the robot file
+        usual = {key: most_frequent(found.values()) for key, found in values.items()}
         return servos_of(
             [
-                {joint: {key: found[k, joint] for key, found in values.items()} for joint in JOINTS}
+                {
+                    joint: {key: found.get((k, joint), usual[key]) for key, found in values.items()}
+                    for joint in JOINTS
+                }
                 for k in range(len(legs))
             ]
         )

@@ -9,8 +9,8 @@ from typing import Final
 
 import numpy as np
 
-from apnc.importing.legs import LegGeometry
-from apnc.importing.model import Frame, ModelFileError, moved, rotation, together
+from apnc.importing.legs import LegGeometry, Pose
+from apnc.importing.model import ModelFileError, moved, together
 from apnc_core.types import Array
 from apnc_plant.robot import MassProperties
 
@@ -24,7 +24,21 @@ STRAIGHTEST: Final = 0.2
 """Smallest angle between femur and tibia in a walk [rad]: a straight leg cannot give way."""
 
 _RATIOS: Final = tuple(sorted(np.arange(0.3, 2.5, 0.01), key=lambda r: abs(r - LEG_PER_SPACING)))
-_LEVEL: Final = 0.01
+
+LIFTED: Final = math.radians(110.0)
+"""Femur of a leg with a coxa by the rule, outward of vertical [rad]."""
+
+LEANING: Final = math.radians(5.0)
+"""Its tibia, outward of vertical [rad]."""
+
+UNEVEN: Final = 0.02
+"""Largest difference in height of the feet of a pose with coxae, in lengths of a leg."""
+
+LOWEST: Final = 0.2
+"""Smallest height of the femur axes over such feet, in lengths of a leg."""
+
+_HELD: Final = 1e-9
+"""By how much a joint that the gait does not move may lie beyond its range [rad]: files round."""
 
 
 @dataclass(frozen=True)
@@ -44,28 +58,26 @@ class Stance:
     """Angles of all legs about which the robot walks.
 
     Args:
-        femur: back of vertical, of each leg [rad].
-        tibia: forward of the line of the femur, of each leg [rad]; negative where the knee lies in
-            front of the line from hip to foot.
+        poses: angles of each leg.
         ratio: height of the hips over the feet, in halves of the distance of neighbouring hips.
         behind: how far the middle of the feet lies behind the centre of mass, in the same halves.
         dropped: what of a named pose is not kept, in words.
     """
 
-    femur: tuple[float, ...]
-    tibia: tuple[float, ...]
+    poses: tuple[Pose, ...]
     ratio: float
     behind: float
     dropped: tuple[str, ...] = ()
 
 
 def stance_by_rule(trunk: MassProperties, legs: Sequence[LegGeometry], swing: Swing) -> Stance:
-    """The stance in which most quadrupeds trot.
+    """The stance in which most quadrupeds trot, or that of legs with a coxa.
 
     The hips are ``LEG_PER_SPACING`` above the feet and the middle of the feet is ``FEET_BEHIND``
     behind the centre of mass, both in halves of the mean distance of neighbouring hips of a side.
     If a joint would leave its range, the nearest height at which none does is taken. A knee lies
-    behind the line from hip to foot, or in front of it where its range is all there.
+    behind the line from hip to foot, or in front of it where its range is all there. For legs with
+    a coxa see :func:`_stance_with_coxae`.
 
     Args:
         trunk: mass properties of the trunk in its frame.
@@ -74,23 +86,31 @@ def stance_by_rule(trunk: MassProperties, legs: Sequence[LegGeometry], swing: Sw
 
     Raises:
         ModelFileError: no height keeps all joints in their ranges; the message names the joint
-            that is farthest out of it at the height of the rule.
+            that is farthest out of it at the height of the rule; or only some legs have a coxa.
     """
+    coxae = sum(leg.has_coxa for leg in legs)
+    if coxae == len(legs):
+        return _stance_with_coxae(trunk, legs, swing)
+    if coxae:
+        raise ModelFileError(
+            f"{coxae} of {len(legs)} legs have a coxa; allowed: all or none, or a pose by name"
+        )
+    for leg in legs:
+        _check_level(leg)
     bends = [_bends(leg, swing) for leg in legs]
     half = _half_spacing(legs)
     kept = []
     for ratio in _RATIOS:
         angles = _angles(trunk, legs, bends, half, ratio)
-        out = [_outside(leg, *pair, swing) for leg, pair in zip(legs, angles, strict=True)]
+        out = [_outside(leg, pose, swing) for leg, pose in zip(legs, angles, strict=True)]
         worst = max(out)
         if worst[0] <= 0.0:
-            femur, tibia = (tuple(float(pair[k]) for pair in angles) for k in range(2))
             told = (
                 f"the height of the rule, {LEG_PER_SPACING}, at which a joint would leave its "
                 f"range; {ratio:.3g} is the nearest at which none does",
             )
             on_rule = abs(ratio - LEG_PER_SPACING) < 1e-9
-            return Stance(femur, tibia, float(ratio), FEET_BEHIND, () if on_rule else told)
+            return Stance(tuple(angles), float(ratio), FEET_BEHIND, () if on_rule else told)
         kept.append(worst)
     raise ModelFileError(min(kept)[1])
 
@@ -110,38 +130,127 @@ def stance_of_pose(
     Raises:
         ModelFileError: the gait would leave the range of a joint.
     """
-    angles, dropped = [], []
-    for leg in legs:
-        aside, femur, tibia = (turn.geometric(pose.get(turn.joint.name, 0.0)) for turn in leg.turns)
-        femur, tibia = (_principal(angle) for angle in (femur, tibia))
-        if abs(aside) > _LEVEL:
-            dropped.append(
-                f"{leg.abduction.joint.name} stands at {leg.abduction.zero:.3g} rad, where the hip "
-                f"axis is level, not at {leg.abduction.in_file(aside):.3g} as in the pose"
-            )
-        worst = _outside(leg, femur, tibia, swing)
+    poses = [_principal(leg.pose(pose)) for leg in legs]
+    for leg, own in zip(legs, poses, strict=True):
+        worst = _outside(leg, own, swing)
         if worst[0] > 0.0:
             raise ModelFileError(worst[1])
-        angles.append((femur, tibia))
+    return _measured(trunk, legs, poses)
+
+
+def _measured(
+    trunk: MassProperties,
+    legs: Sequence[LegGeometry],
+    poses: Sequence[Pose],
+    dropped: tuple[str, ...] = (),
+) -> Stance:
+    """The stance of a pose."""
     half = _half_spacing(legs)
-    com = _center_of_mass(trunk, legs, angles)
-    feet = [_foot_at(leg, *pair) for leg, pair in zip(legs, angles, strict=True)]
-    middle = np.mean(feet, axis=0)
+    com = _center_of_mass(trunk, legs, poses)
+    middle = np.mean([leg.foot_at(own) for leg, own in zip(legs, poses, strict=True)], axis=0)
     hips = np.mean([leg.hip_joint[2] for leg in legs])
-    return Stance(
-        tuple(pair[0] for pair in angles),
-        tuple(pair[1] for pair in angles),
-        float(hips - middle[2]) / half,
-        float(com[0] - middle[0]) / half,
-        tuple(dropped),
+    ratio, behind = float(hips - middle[2]) / half, float(com[0] - middle[0]) / half
+    return Stance(tuple(poses), ratio, behind, dropped)
+
+
+def _stance_with_coxae(trunk: MassProperties, legs: Sequence[LegGeometry], swing: Swing) -> Stance:
+    """The stance of legs with a coxa: all joints at 0 if the robot can stand so, else by a rule.
+
+    It can stand so if its feet lie outward of and below the femur axes, differ in height by
+    ``UNEVEN`` at most, and no joint leaves its range. The rule leaves the coxae as they are, lifts
+    the femurs by ``LIFTED`` and lets the tibias lean by ``LEANING``, both as near as the ranges
+    allow, and levels the feet by the femurs.
+    """
+    zero = [_principal(_in_range(leg, leg.pose({}), swing)) for leg in legs]
+    feet = [leg.foot_at(own) for leg, own in zip(legs, zero, strict=True)]
+    size = float(np.mean([leg.femur + leg.tibia for leg in legs]))
+    heights = [float(foot[2]) for foot in feet]
+    stands = max(heights) - min(heights) <= UNEVEN * size and all(
+        leg.hip_joint[2] - height >= LOWEST * size
+        and 0.0 < own.femur < math.pi
+        and _outside(leg, own, swing)[0] <= 0.0
+        for leg, own, height in zip(legs, zero, heights, strict=True)
     )
+    if stands:
+        return _measured(trunk, legs, zero)
+    kept = []
+    for lifted, leaning in _LIFTS:
+        first = [_lifted(leg, own, lifted, leaning) for leg, own in zip(legs, zero, strict=True)]
+        ground = float(np.mean([leg.foot_at(own)[2] for leg, own in zip(legs, first, strict=True)]))
+        poses = [_levelled(leg, own, ground, leaning) for leg, own in zip(legs, first, strict=True)]
+        worst = max(_outside(leg, own, swing) for leg, own in zip(legs, poses, strict=True))
+        if worst[0] <= 0.0:
+            told = "all joints at 0: the feet are not level and below the coxae within the ranges"
+            return _measured(trunk, legs, poses, (told,))
+        kept.append(worst)
+    raise ModelFileError(min(kept)[1])
 
 
-def _principal(angle: float) -> float:
-    """The angle in (-pi, pi] [rad]; one that is there already is left as it is."""
-    if -math.pi < angle <= math.pi:
-        return angle
-    return math.pi - (math.pi - angle) % (2.0 * math.pi)
+_LIFTS: Final = tuple(
+    sorted(
+        (
+            (math.radians(lifted), math.radians(leaning))
+            for lifted in range(40, 156, 5)
+            for leaning in range(-45, 46, 5)
+        ),
+        key=lambda pair: (abs(pair[0] - LIFTED) + abs(pair[1] - LEANING), pair),
+    )
+)
+"""Femurs and tibias outward of vertical [rad], from those of the rule outward."""
+
+
+def _in_range(leg: LegGeometry, pose: Pose, swing: Swing) -> Pose:
+    """The pose with every joint, and the coxa with its swing, as near as its range allows."""
+    found = {}
+    for name, turn in leg.turns.items():
+        room = swing.hip if name == "pointing" else 0.0
+        low, high = turn.lower + room, turn.upper - room
+        found[name] = min(max(getattr(pose, name), low), max(low, high))
+    return replace(pose, **found)
+
+
+def _lifted(leg: LegGeometry, pose: Pose, lifted: float, leaning: float) -> Pose:
+    """The pose with a femur and a tibia so far outward of vertical [rad].
+
+    A rigid leg is turned so that the line to its foot leans as far as that of a usual one.
+    """
+    if "tibia" in leg.turns:
+        return replace(pose, femur=lifted, tibia=lifted - leaning)
+    return replace(pose, femur=(lifted + leaning) / 2.0)
+
+
+def _levelled(leg: LegGeometry, pose: Pose, ground: float, leaning: float) -> Pose:
+    """The pose with its foot at a height in the frame of the trunk [m]; nan if it cannot."""
+    down = float(leg.hip_joint[2]) - ground
+    if "tibia" not in leg.turns:
+        cosine = down / (leg.femur + leg.tibia)
+        return replace(pose, femur=math.acos(cosine) if abs(cosine) <= 1.0 else math.nan)
+    cosine = (down - leg.tibia * math.cos(leaning)) / leg.femur
+    femur = math.acos(cosine) if abs(cosine) <= 1.0 else math.nan
+    return replace(pose, femur=femur, tibia=femur - leaning)
+
+
+def _check_level(leg: LegGeometry) -> None:
+    """Refuse a leg that cannot stand with its hip axis level."""
+    turn = leg.turns.get("abduction")
+    if turn is not None and not turn.lower - _HELD <= 0.0 <= turn.upper + _HELD:
+        low, high = turn.joint.lower, turn.joint.upper
+        raise ModelFileError(
+            f"leg {leg.names[0]}: joint {turn.joint.name} would stand at {turn.zero:.3g} rad, "
+            f"where the hip axis is level; allowed: in its range, {low:.3g} to {high:.3g} rad, "
+            "or a pose by name"
+        )
+
+
+def _principal(pose: Pose) -> Pose:
+    """The pose with its angles in (-pi, pi] [rad]; one that is there already is left as it is."""
+
+    def angle(value: float) -> float:
+        if -math.pi < value <= math.pi:
+            return value
+        return math.pi - (math.pi - value) % (2.0 * math.pi)
+
+    return Pose(*map(angle, (pose.abduction, pose.pointing, pose.femur, pose.tibia)))
 
 
 def _half_spacing(legs: Sequence[LegGeometry]) -> float:
@@ -165,8 +274,8 @@ def _half_spacing(legs: Sequence[LegGeometry]) -> float:
 
 def _bends(leg: LegGeometry, swing: Swing) -> float:
     """1 for a knee that lies behind the line from hip to foot, -1 for one in front of it."""
-    room = STRAIGHTEST + 2.0 * swing.knee
-    behind, in_front = leg.knee.upper >= room, leg.knee.lower <= -room
+    room, knee = STRAIGHTEST + 2.0 * swing.knee, leg.turns["tibia"]
+    behind, in_front = knee.upper >= room, knee.lower <= -room
     return -1.0 if in_front and not behind else 1.0
 
 
@@ -176,47 +285,56 @@ def _angles(
     bends: Sequence[float],
     half: float,
     ratio: float,
-) -> list[tuple[float, float]]:
-    """Angles of femur and tibia of each leg [rad]; nan where a leg does not reach."""
+) -> list[Pose]:
+    """Pose of each leg; nan where a leg does not reach."""
     hips = np.array([leg.hip_joint for leg in legs])
     heights = ratio * half + hips[:, 2] - hips[:, 2].mean()
-    forward, angles = 0.0, [(0.0, 0.0)] * len(legs)
+    forward, poses = 0.0, [Pose() for _ in legs]
     for _ in range(30):  # the legs move the centre of mass a little
-        angles = [
-            _reach(leg, forward, height, bent)
+        poses = [
+            _reach(leg, forward, float(height), bent)
             for leg, height, bent in zip(legs, heights, bends, strict=True)
         ]
-        com = _center_of_mass(trunk, legs, angles)
+        com = _center_of_mass(trunk, legs, poses)
         before, forward = forward, float(com[0] - FEET_BEHIND * half - hips[:, 0].mean())
         if not math.isfinite(forward) or abs(forward - before) < 1e-12:
             break
-    return angles
+    return poses
 
 
-def _reach(leg: LegGeometry, forward: float, down: float, bends: float) -> tuple[float, float]:
-    """Angles of femur and tibia with the foot so far in front of and below the hip [m]."""
-    a, b, distance = leg.femur, leg.tibia, math.hypot(forward, down)
+def _reach(leg: LegGeometry, forward: float, down: float, bends: float) -> Pose:
+    """The pose with the foot so far in front of and below the hip [m]."""
+    down /= math.cos(leg.fixed.abduction)
+    a, lead, b, distance = leg.femur, 0.0, leg.tibia, math.hypot(forward, down)
+    if leg.pitches_first:  # from the hip axis to the knee, and how far back that lies
+        x, _, z = leg.hip_offset
+        a, lead = math.hypot(x, leg.femur - z), math.atan2(-x, leg.femur - z)
     cosine = (distance**2 - a**2 - b**2) / (2.0 * a * b)
     if not abs(cosine) <= 1.0:
-        return math.nan, math.nan
+        return replace(leg.fixed, femur=math.nan, tibia=math.nan)
     knee = math.acos(cosine)
     back = math.atan2(-forward, down)
     lean = math.atan2(b * math.sin(knee), a + b * math.cos(knee))
-    return back + bends * lean, bends * knee
+    return replace(leg.fixed, femur=back + bends * lean - lead, tibia=bends * knee - lead)
 
 
-def _outside(leg: LegGeometry, femur: float, tibia: float, swing: Swing) -> tuple[float, str]:
+def _outside(leg: LegGeometry, pose: Pose, swing: Swing) -> tuple[float, str]:
     """How far the gait leaves the range of a joint at most [rad], not above 0 if nowhere."""
     name = leg.names[0]
-    if math.isnan(femur):
+    if math.isnan(pose.femur):
         return math.inf, f"leg {name} is too short or too long for any stance"
     worst = (-math.inf, "")
-    if tibia < 0.0:
-        least = replace(leg.knee, upper=min(leg.knee.upper, -STRAIGHTEST))
+    turns, sizes = dict(leg.turns), {"femur": swing.hip, "tibia": swing.knee}
+    if leg.has_coxa:
+        sizes = {"pointing": swing.hip, "femur": swing.knee}
+    elif pose.tibia < 0.0:
+        turns["tibia"] = replace(turns["tibia"], upper=min(turns["tibia"].upper, -STRAIGHTEST))
     else:
-        least = replace(leg.knee, lower=max(leg.knee.lower, STRAIGHTEST))
-    for turn, angle, size in ((leg.hip, femur, swing.hip), (least, tibia, swing.knee)):
+        turns["tibia"] = replace(turns["tibia"], lower=max(turns["tibia"].lower, STRAIGHTEST))
+    for angle_name, turn in turns.items():
+        angle, size = getattr(pose, angle_name), sizes.get(angle_name, 0.0)
         out = max(turn.lower - (angle - size), angle + size - turn.upper)
+        out -= _HELD if size == 0.0 else 0.0
         moves = sorted(map(turn.in_file, (angle - size, angle + size)))
         ends = sorted(map(turn.in_file, (turn.lower, turn.upper)))
         words = (
@@ -227,26 +345,12 @@ def _outside(leg: LegGeometry, femur: float, tibia: float, swing: Swing) -> tupl
     return worst
 
 
-def _foot_at(leg: LegGeometry, femur: float, tibia: float) -> Array:
-    """The foot in the frame of the trunk [m], shape (3,)."""
-    back = femur - tibia
-    x = -leg.femur * math.sin(femur) - leg.tibia * math.sin(back)
-    z = -leg.femur * math.cos(femur) - leg.tibia * math.cos(back)
-    return np.asarray(leg.hip_joint + np.array([x, 0.0, z]))
-
-
 def _center_of_mass(
-    trunk: MassProperties, legs: Sequence[LegGeometry], angles: Sequence[tuple[float, float]]
+    trunk: MassProperties, legs: Sequence[LegGeometry], poses: Sequence[Pose]
 ) -> Array:
     """Centre of mass of the robot in the frame of its trunk [m], shape (3,)."""
-    whole, y = trunk, np.array([0.0, 1.0, 0.0])
-    for leg, (femur, tibia) in zip(legs, angles, strict=True):
-        knee = leg.hip_joint - leg.femur * np.array([math.sin(femur), 0.0, math.cos(femur)])
-        frames = (
-            Frame(leg.mount),
-            Frame(leg.hip_joint, rotation(y, femur)),
-            Frame(knee, rotation(y, femur - tibia)),
-        )
-        for body, frame in zip(leg.bodies, frames, strict=True):
+    whole = trunk
+    for leg, pose in zip(legs, poses, strict=True):
+        for body, frame in zip(leg.bodies, leg.frames(pose)[:3], strict=True):
             whole = together(whole, moved(body, frame))
     return whole.com

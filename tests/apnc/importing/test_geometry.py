@@ -269,7 +269,7 @@ def test_a_stance_that_a_range_forbids_is_replaced_by_the_nearest_and_told(tmp_p
     for leg, own in zip(found.robot.legs, found.legs, strict=True):
         # the line from knee to foot is not the z axis of the calf
         aside = np.arctan2(FOOT_AHEAD, SHANK)
-        assert own.knee.upper == pytest.approx(high + aside)
+        assert own.turns["tibia"].upper == pytest.approx(high + aside)
         assert leg.tibia_angle + swing <= high + aside
         assert leg.tibia_angle + swing > high + aside - 0.05
     assert found.stance.ratio > 1.05
