@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from itertools import islice
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from apnc.loop.batch import Stop
 from apnc.loop.engines import COMPILED
@@ -56,8 +56,10 @@ def grid_of(
                         robot=robot, mi=mi, seed=seed, controller=controller,
                         duration=duration, engine=COMPILED,
                     )  # fmt: skip
-                    cell = {"controller": controller, "robot": robot, "mi": mi, "start": start}
-                    trials.append(Trial(ENTRY, {**cell, "seed": seed}, experiment))
+                    cell: dict[str, Any] = {"controller": controller, "robot": robot}
+                    cell |= {"mi": mi, "start": start}
+                    cell |= {"seed": seed, "duration": duration}
+                    trials.append(Trial(ENTRY, cell, experiment))
     return trials
 
 

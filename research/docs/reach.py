@@ -55,19 +55,19 @@ STUDIES: Final[Mapping[str, Kept]] = {
     "robustness.numbers": Kept(
         "robustness.md",
         numbers.counts,  # type: ignore[arg-type]
-        {"robustness.numbers": numbers.counts_table},
+        {"robustness-numbers": numbers.counts_table},
     ),
     "basin": Kept("basin.md", ends.counts, {"basin": ends.counts_table}),
     "basin.pushes": Kept(
         "basin.md",
         pushes.counts,  # type: ignore[arg-type]
-        {"basin.pushes": pushes.counts_table},
+        {"basin-pushes": pushes.counts_table},
     ),
     "limits": Kept(
         "limits_of_the_claim.md",
         limits.counts,  # type: ignore[arg-type]
         {
-            "limits": limits.counts_table,
+            "limits-works": limits.counts_table,
             "limits-upright": lambda rows: limits.counts_table(rows, "upright"),
         },
     ),

@@ -25,6 +25,9 @@ Rows = Sequence[Row]
 BAR_PX: Final = 21
 """Height of a line of bars."""
 
+GAP_PX: Final = 78
+"""Between two rows of panels, for the title of an axis."""
+
 WALK_COLOURS: Final = (
     theme.SKY, theme.BLUE, theme.GREEN, theme.ORANGE, theme.VERMILLION, theme.PURPLE,
 )  # fmt: skip
@@ -40,7 +43,8 @@ def one_body(shares: Rows, off: Rows) -> Any:
     labels = list(dict.fromkeys(row["controller"] for row in shares))
     factors, shifts = (numbers.bars(off, shifts=which) for which in (False, True))
     lines = [len(bars[0]["y"]) for bars in (factors, shifts)]
-    heights = [330, *(60 + BAR_PX * count for count in lines)]
+    heights = [300, *(24 + BAR_PX * count for count in lines)]
+    total = sum(heights) + 2 * GAP_PX
     plot = make_subplots(
         rows=3,
         cols=len(labels),
@@ -49,7 +53,7 @@ def one_body(shares: Rows, off: Rows) -> Any:
             *([{"colspan": len(labels)}, *[None] * (len(labels) - 1)] for _ in range(2)),
         ],
         row_heights=heights,
-        vertical_spacing=0.07,
+        vertical_spacing=GAP_PX / total,
         subplot_titles=[named_controller(label).name for label in labels],
     )
     for column, label in enumerate(labels, start=1):
@@ -67,7 +71,7 @@ def one_body(shares: Rows, off: Rows) -> Any:
             plot.add_trace(trace, row=row, col=1)
         plot.update_xaxes(row=row, col=1, **axis)
         plot.update_yaxes(row=row, col=1, **theme.axis("", automargin=True))
-    plot.update_layout(theme.layout(sum(heights) + 120, barmode="group", hovermode=False))
+    plot.update_layout(theme.layout(total + 154, barmode="group", hovermode=False))
     plot.update_layout(margin={"l": 190, "t": 110})
     plot.update_layout(legend={"y": 1.03, "entrywidth": 130, "traceorder": "normal"})
     return plot
