@@ -138,6 +138,8 @@ def build(
         path = cached_fmu(options, compiling(shown, len(options.platforms)))
         write_atomically(output, path.read_bytes())
     say(f"{output}: {output.stat().st_size / 1000:.0f} kB, {', '.join(options.platforms)}")
+    if robot and (words := _mi_of(robot)):
+        say(words)
     if came_with_the_package:
         say(
             "It came with the package, for this machine. "
@@ -164,6 +166,18 @@ def platform_names(words: list[str] | None) -> tuple[str, ...]:
     short = {"all": PLATFORMS, "host": [host_platform()] if "host" in (words or ()) else []}
     names = [name for word in words or ["all"] for name in short.get(word, [word])]
     return tuple(dict.fromkeys(names))
+
+
+def _mi_of(name: str) -> str:
+    """At which MI a robot walks, for who connects the input; empty if its file does not say it."""
+    from apnc.loop.of_robot import own_mi
+    from apnc_plant.robot import load_robot
+
+    robot = load_robot(name)
+    if robot.mi is None and robot.mi_range is None:
+        return ""
+    span = "" if robot.mi_range is None else " ({:g} to {:g})".format(*robot.mi_range)
+    return f"MI is an input, 0.08 until it is set; this robot walks at {own_mi(robot):g}{span}"
 
 
 def _of_robot(

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from apnc.tune import Tuned, Validation
     from apnc.tune.search import Best, Count
 
+MEASURING: Final = "the search is over; measuring what was found takes a little longer"
+"""Said between the last candidate and the table."""
+
 BAR: Final = 14
 """Width of the bar [characters]; what was found so far is beside it in a row of 80."""
 
@@ -94,6 +97,7 @@ def tune(
                 log=log,
                 resume=resume,
                 progress=progress,
+                measuring=lambda: say(MEASURING, error=True),
                 stop=STOP,
             )
         except Stopped:
@@ -162,6 +166,8 @@ def _say(tuned: Tuned, output: Path) -> None:
         f"{count.candidates} candidates in {count.wall / 60.0:.1f} min, {rate:.0f} simulated "
         f"seconds a second; found again by\n{tuned.command}\n"
     )
+    if tuned.best.x == tuned.begun_at:
+        say("nothing better than the file itself was found: only its MI range and MI are set\n")
     if tuned.validation is not None:
         _say_validation(tuned.validation)
     say("")

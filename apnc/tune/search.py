@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import math
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
@@ -200,7 +201,9 @@ class _Strategy:
 
     def __init__(self, start: Start, seed: int) -> None:
         try:
-            self._cma: Any = importlib.import_module("cma")
+            with warnings.catch_warnings():  # of plots, which nobody asks for here
+                warnings.simplefilter("ignore")
+                self._cma: Any = importlib.import_module("cma")
         except ModuleNotFoundError:
             raise RuntimeError(missing("cma", "tune")) from None
         self._seed, self._size = seed, CANDIDATES

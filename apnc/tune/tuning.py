@@ -52,6 +52,7 @@ class Tuned:
         robot: the same as a robot.
         before: the robot of the file from which the search began.
         best: the best candidate, with its runs in the check of the search.
+        begun_at: the point of the robot of the file.
         count: how much was tried.
         validation: what it does; None if it was interrupted before that was walked.
         command: what finds it again.
@@ -61,6 +62,7 @@ class Tuned:
     robot: RobotDescription
     before: RobotDescription
     best: Best
+    begun_at: tuple[float, ...]
     count: Count
     validation: Validation | None
     command: str
@@ -81,6 +83,7 @@ def tune(
     resume: bool = False,
     seeds: int = SEEDS,
     progress: Callable[[Best, Count, float], None] = lambda best, count, share: None,
+    measuring: Callable[[], None] = lambda: None,
     stop: Stop = lambda: False,
 ) -> Tuned:
     """Find the gait of a robot.
@@ -104,6 +107,7 @@ def tune(
         resume: go on with the search of the log.
         seeds: number of seeds at each MI of the validation.
         progress: called after every generation, with the share of the search that is done.
+        measuring: called when the search is over and what was found is walked.
         stop: asked a few times a second; True ends the search, and the best so far is kept.
 
     Raises:
@@ -156,6 +160,7 @@ def tune(
             start, evaluator, lines, seed=seed, candidates=candidates, progress=told
         )
         again = _command(robot, seed, count, mi, allowed, paper)
+        measuring()
         last = replace(evaluator, stop=stop)
         found = best.candidate.robot if paper else _within(start, best.candidate, last)
         found = replace(found, mi=_usual(Candidate(found, best.candidate.values)))
@@ -166,7 +171,8 @@ def tune(
             validation = validated(start, candidate, last, seeds)
         except Stopped:
             validation = None
-    return Tuned(text, tuned, description, best, count, validation, again)
+    begun_at = tuple(map(float, start.first()))
+    return Tuned(text, tuned, description, best, begun_at, count, validation, again)
 
 
 def _within(start: Start, best: Candidate, evaluator: Evaluator) -> RobotDescription:

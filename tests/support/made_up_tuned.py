@@ -56,5 +56,5 @@ def tuned(found: Validation | None = None, before: RobotDescription | None = Non
     best = Best((0.5,), Candidate(robot, {}), runs, 1.0)
     count = Count(2, 32, 5000.0, 60.0)
     return Tuned(
-        "", robot, before, best, count, found, "apnc tune lilibot --candidates 32 --seed 1"
+        "", robot, before, best, (0.4,), count, found, "apnc tune lilibot --candidates 32 --seed 1"
     )

@@ -145,3 +145,15 @@ def test_a_release_is_wired(
     code, out, _ = run(capsys, "build", "--release", str(tmp_path / "files"))
     assert (code, out) == (0, f"{tmp_path / 'files'}: one.fmu, SHA256SUMS\n")
     assert (tmp_path / "files").is_dir()
+
+
+def test_who_connects_the_input_is_told_the_mi_of_the_robot(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
+    Path("own.toml").write_text(f"mi = 0.2\nmi_range = [0.1, 0.3]\n{text}", encoding="utf-8")
+    code, out, err = run(capsys, "build", "--platform", "host", "--robot", "own.toml")
+    assert code == 0, err
+    assert "MI is an input, 0.08 until it is set; this robot walks at 0.2 (0.1 to 0.3)\n" in out
+    assert "MI is an input" not in run(capsys, "build", "--platform", "host")[1]
