@@ -21,10 +21,13 @@ REACH: Final = 4.5
 """How far the ground is drawn around the path [diagonals of the robot seen from above]."""
 
 AREA: Final = 60.0
-"""Largest area of ground that is drawn [m²], about 1 MB of page.
+"""Largest area of uneven ground that is drawn [m²], about 1 MB of page."""
 
-On a longer path it lies around the end.
-"""
+FLAT_AREA: Final = 6000.0
+"""Largest area of a plane that is drawn [m²]: its lines need two points each."""
+
+LEAST_REACH: Final = 0.3
+"""How far the ground is drawn at least, as a share of ``REACH``."""
 
 LANDMARK: Final = 0.5
 """Spacing of the straight lines that are drawn stronger, to show the progress [m]."""
@@ -129,11 +132,26 @@ def ground_lines(ground: Ground, position: Array, reach: float) -> dict[str, Arr
 
 
 def _lines(ground: Ground, path: Array, reach: float) -> list[Array]:
-    """Lines of the ground around the path or, if it is long, its end, in the ground's frame."""
-    low, high = path[:, :2].min(axis=0) - reach, path[:, :2].max(axis=0) + reach
-    if np.prod(high - low) > AREA and len(path) > 1:
-        return _lines(ground, path[len(path) // 2 :], reach)
+    """Lines of the ground around the path, in the ground's frame.
+
+    Of a large area they reach less far; if that is not enough, they lie around the end of the path.
+    """
+    largest, least = (FLAT_AREA if ground.flat else AREA), reach * LEAST_REACH
+    while _area(path, reach) > largest and reach > least:
+        reach = max(least, 0.8 * reach)
+    while _area(path, reach) > largest and len(path) > 1:
+        path = path[len(path) // 2 :]
+    low, high = _corners(path, reach)
     return ground.lines(low[0], high[0], low[1], high[1])
+
+
+def _corners(path: Array, reach: float) -> tuple[Array, Array]:
+    return path[:, :2].min(axis=0) - reach, path[:, :2].max(axis=0) + reach
+
+
+def _area(path: Array, reach: float) -> float:
+    low, high = _corners(path, reach)
+    return float(np.prod(high - low))
 
 
 def _is_landmark(points: Array) -> bool:
