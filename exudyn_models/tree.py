@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import cos, sin
 from typing import Any, Final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from apnc_core.types import Array
 from apnc_plant.coordinates import BASE
@@ -113,7 +113,7 @@ def _add_leg(links: _Links, leg: Leg, trunk: int, robot: RobotDescription) -> No
         body = MassProperties(
             link.body.mass, frame.T @ link.body.com, frame.T @ link.body.inertia @ frame
         )
-        turn = inner.T @ Rotation.from_rotvec(link.turn * np.array(link.axis)).as_matrix() @ frame
+        turn = inner.T @ frame @ _turned(joint, link.turn)
         at = links.add(joint, at, inner.T @ link.position, turn, body)
         inner = frame
         rotor = robot.servo_of(leg, JOINTS[link.angle]).reflected_inertia
@@ -149,3 +149,16 @@ def _joint_of(link: Link) -> tuple[Any, Array]:
     if z != 0.0:
         return kind.RevoluteZ, UPRIGHT
     return kind.RevoluteX, np.array([[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _turned(joint: Any, angle: float) -> Array:
+    """Rotation about the axis of a kind of joint.
+
+    Rotation.from_rotvec rounds otherwise, which a walk shows after a few seconds.
+    """
+    kind, c, s = exu().JointType, cos(angle), sin(angle)
+    if joint == kind.RevoluteX:
+        return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    if joint == kind.RevoluteY:
+        return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
