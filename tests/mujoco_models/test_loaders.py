@@ -29,6 +29,7 @@ from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.robot.links import links_of
 from apnc_plant.robot.names import plain_names
 from apnc_plant.robot.urdf import robot_urdf
+from apnc_plant.signals import JOINTS
 
 ROBOTS = {robot.name: robot for robot in (load_robot("lilibot"), load_robot("hexapod"))}
 ROBOTS |= {"odd": odd_robot(), "full": full_robot()}
@@ -98,10 +99,11 @@ def test_a_loader_has_our_mass_joints_limits_and_feet(
         assert kinds == sorted(kinds, key=("abduction", "hip", "knee").index)
     else:
         assert found.joints == names
-    servo = ours.servo
-    for name in names:
+    joints = [(leg, link.angle) for leg in ours.legs for link in links_of(leg)]
+    for name, (leg, joint) in zip(names, joints, strict=True):
+        servo, (low, high) = ours.servo_of(leg, JOINTS[joint]), leg.stops[joint]
         lower, upper, torque, speed = found.limits[name]
-        assert (lower, upper) == pytest.approx((-pi, pi), abs=1e-12)
+        assert (lower, upper) == pytest.approx((max(low, -pi), min(high, pi)), abs=1e-12)
         assert torque == pytest.approx(servo.stall_torque, abs=1e-12)
         assert speed is None or speed == pytest.approx(servo.no_load_speed, abs=1e-12)
     random = np.random.default_rng(0)
