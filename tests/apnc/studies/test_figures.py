@@ -185,7 +185,7 @@ def test_damage_shows_the_speed_of_every_method() -> None:
     results[0]["path_speed_m_per_s"] = None
     (figure,) = load(STUDIES["damage"]).figures(results)
     assert (figure.key, figure.title) == ("damage-speed", "Speed")
-    assert figure.note == "Commands of leg RF held at 0."
+    assert figure.note == "Commands of the right front leg held at 0."
     assert figure.layout["yaxis"]["title"]["text"] == "speed [m/s]"
     assert [(t["name"], t["y"][0]) for t in quartiles(figure.data)] == [
         ("APNC, n = 5 of 6", 0.1),
