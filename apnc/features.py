@@ -15,6 +15,7 @@ from apnc import metrics
 from apnc.feet import ByLeg, Feet
 from apnc_core import __version__
 from apnc_core.types import Array
+from apnc_plant.robot.size import mean_leg_length
 from apnc_plant.signals import PLANT_SIGNALS
 
 if TYPE_CHECKING:
@@ -149,7 +150,7 @@ def walk_features(record: Record) -> WalkFeatures:
     forward = metrics.forward_speed(time[walked], position[walked], yaw[walked])
     feet, formation = Feet(sound, walked), _formation(sound, touch)
     stride = feet.stride_length
-    leg_length = float(np.mean([leg.femur_length + leg.tibia_length for leg in record.robot.legs]))
+    leg_length = mean_leg_length(record.robot)
     return _finite(
         WalkFeatures(
             controller=record.experiment.controller_name,

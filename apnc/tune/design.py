@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 from typing import Any, Final, NamedTuple
 
 from apnc.tune.servos import geared, with_rotors
-from apnc.tune.stance import StanceChange, leg_length, stood
+from apnc.tune.stance import StanceChange, stood
 from apnc_core.interface import Parameters
 from apnc_core.schema import Type
 from apnc_core.types import Array
 from apnc_core.variables import variable_named
 from apnc_plant.robot import RobotDescription
+from apnc_plant.robot.size import mean_leg_length
 
 MI_AIMED: Final = (0.08, 0.28)
 """MI range that is aimed at before it is scaled: that of the paper's gaits, slow to fast."""
@@ -125,7 +126,7 @@ class Start:
     @property
     def length(self) -> float:
         """Leg length [m]."""
-        return leg_length(self.robot)
+        return mean_leg_length(self.robot)
 
     @property
     def gravity_speed(self) -> float:

@@ -19,10 +19,10 @@ from apnc.report.page import drawable
 from apnc.report.theme import leg_colours
 from apnc.tune import figures
 from apnc.tune.log import read_rows
-from apnc.tune.stance import leg_length
 from apnc.tune.tuning import Tuned
 from apnc.tune.wording import COLUMNS, changed, lines_to_paste, others, table, verdicts
 from apnc_core import __version__
+from apnc_plant.robot.size import mean_leg_length
 from build_fmu.writing import write_atomically
 
 FILM_S: Final = 20.0
@@ -101,7 +101,7 @@ def _about(tuned: Tuned) -> str:
     robot, count = tuned.robot, tuned.count
     low, high = robot.mi_range or (0.0, 0.0)
     words = [
-        f"{robot.mass:.3g} kg, legs of {1e3 * leg_length(robot):.0f} mm",
+        f"{robot.mass:.3g} kg, legs of {1e3 * mean_leg_length(robot):.0f} mm",
         f"MI {low:.3g} to {high:.3g}",
         f"{count.candidates} candidates in {count.wall / 60.0:.1f} min",
         f"apnc {__version__}",

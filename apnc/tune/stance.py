@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from apnc_plant.robot import Leg, RobotDescription
+from apnc_plant.robot.size import mean_leg_length
 
 _FROM_STOPS = 0.03
 """Least distance of a reference angle from the stops of its joint [rad]."""
@@ -35,11 +36,6 @@ class StanceChange:
     fore_up: float = 0.0
 
 
-def leg_length(robot: RobotDescription) -> float:
-    """Mean length of femur and tibia [m], the unit of every share of a length."""
-    return float(np.mean([leg.femur_length + leg.tibia_length for leg in robot.legs]))
-
-
 def stood(
     robot: RobotDescription, b: tuple[float, float], stance: StanceChange
 ) -> tuple[RobotDescription, tuple[float, float]]:
@@ -59,7 +55,7 @@ def stood(
     """
     if stance == StanceChange():
         return robot, b
-    L = leg_length(robot)
+    L = mean_leg_length(robot)
     ends = _ends(robot.legs)
     wanted = []
     for leg, end in zip(robot.legs, ends, strict=True):

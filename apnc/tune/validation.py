@@ -16,7 +16,7 @@ from apnc.tune.evaluate import Evaluator
 from apnc.tune.measured import Measured
 from apnc.tune.runs import MARGIN, of_validation
 from apnc.tune.search import Best
-from apnc.tune.stance import leg_length
+from apnc_plant.robot.size import mean_leg_length
 
 SEEDS: Final = 20
 """Seeds at each MI of a validation."""
@@ -171,7 +171,7 @@ def validated(
 def in_words(best: Best) -> str:
     """What the check of a candidate shows, e.g. ``trot at 9 of 11 MI, lowest lift 7.0 mm``."""
     robot = best.candidate.robot
-    gait, length = metrics.gait_name(len(robot.legs)), leg_length(robot)
+    gait, length = metrics.gait_name(len(robot.legs)), mean_leg_length(robot)
     walks = [run for run in best.runs if run.kind == "walk"]
     good = [run for run in walks if run.good]
     words = f"{gait} at {len(good)} of {len(walks)} MI"

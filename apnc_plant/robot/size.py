@@ -19,6 +19,12 @@ def leg_length(robot: RobotDescription) -> float:
     return max(leg.femur_length + leg.tibia_length for leg in robot.legs)
 
 
+def mean_leg_length(robot: RobotDescription) -> float:
+    """Femur and tibia [m], mean over the legs of a robot."""
+    lengths = [leg.femur_length + leg.tibia_length for leg in robot.legs]
+    return sum(lengths) / len(lengths)
+
+
 def times_longer(robot: RobotDescription) -> float:
     """Leg of a robot over that of Lilibot, for which this is exactly 1 [1]."""
     return leg_length(robot) / LILIBOT_LEG

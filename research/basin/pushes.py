@@ -22,8 +22,8 @@ from apnc.studies.statistics import median
 from apnc.studies.study import Study
 from apnc.studies.table import markdown
 from apnc_plant.robot import GRAVITY, RobotDescription, load_robot
+from apnc_plant.robot.size import mean_leg_length
 from research.command import main
-from research.limits.cases import leg_length
 from research.registry import STUDIES
 
 DIRECTIONS: Final = tuple(range(0, 360, 45))
@@ -51,7 +51,7 @@ Row = dict[str, Any]
 
 def impulse(robot: RobotDescription, froude: float) -> float:
     """Impulse that changes the speed of a robot by a share of sqrt(g l) [N s]."""
-    return froude * robot.mass * math.sqrt(GRAVITY * leg_length(robot))
+    return froude * robot.mass * math.sqrt(GRAVITY * mean_leg_length(robot))
 
 
 def experiment(

@@ -19,10 +19,11 @@ from apnc.cli.main import main as run_app
 from apnc.importing import ModelFileError, import_robot
 from apnc.studies.machine import commit, processor
 from apnc_plant.robot import load_robot
+from apnc_plant.robot.size import mean_leg_length
 from research.docs import DOCS
 from research.docs.manifest import USUAL, note
 from research.gallery import films, page, store
-from research.gallery.measure import FIRST_SEED, Walk, leg_length, walks
+from research.gallery.measure import FIRST_SEED, Walk, walks
 from research.gallery.robots import GalleryRobot, model_of, robots
 
 app = typer.Typer(
@@ -118,7 +119,7 @@ def measure(
             )  # fmt: skip
             about["robots"][robot.name] = {
                 "mass": description.mass,
-                "leg_length": leg_length(description),
+                "leg_length": mean_leg_length(description),
                 "rate": description.rate,
                 **known.get(robot.name, {}),
             }

@@ -19,6 +19,7 @@ from apnc.tune import MI_AIMED
 from apnc.varied import varied
 from apnc.walking import goes_forward, moves
 from apnc_plant.robot import RobotDescription
+from apnc_plant.robot.size import mean_leg_length
 
 FIRST_SEED: Final = 2**32
 """Seeds from here on are used by no search, nor by its own checks."""
@@ -83,11 +84,6 @@ def duration_of(robot: RobotDescription) -> float:
     return WALK_S * USUAL_RATE / (robot.rate or USUAL_RATE)
 
 
-def leg_length(robot: RobotDescription) -> float:
-    """Mean length of femur and tibia [m]."""
-    return float(np.mean([leg.femur_length + leg.tibia_length for leg in robot.legs]))
-
-
 def experiments(robot: RobotDescription, seeds: int) -> Iterator[tuple[str, str, Experiment]]:
     """Body, label of the controller and experiment of every walk."""
     given: dict[str, Any] = {"engine": "compiled", "duration": duration_of(robot)}
@@ -145,7 +141,7 @@ def measured(name: str, body: str, label: str, record: Record) -> Walk:
         late = slice(round(LATE * len(record.time)), None)
         place, yaw = record.signals["position"][late], record.signals["rpy"][late, 2]
         ahead = float(metrics.smoothed_speed(record.time[late], place, yaw).mean())
-        lift, slip = _worst(Feet(record, late), leg_length(record.robot))
+        lift, slip = _worst(Feet(record, late), mean_leg_length(record.robot))
     return Walk(
         name, body, label, experiment.mi, experiment.seed, whole.end,
         bool(whole.converged) and moves(whole) and goes_forward(whole), whole.convergence_time_s,

@@ -11,6 +11,7 @@ from apnc.studies.robots import changed
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Kerb, Obstacles, Plane, Waves
 from apnc_plant.robot import RobotDescription
+from apnc_plant.robot.size import mean_leg_length
 
 Fields = Mapping[str, Any]
 """Fields of an experiment by name."""
@@ -41,21 +42,16 @@ class Case:
     value: float
 
 
-def leg_length(robot: RobotDescription) -> float:
-    """Mean length of femur and tibia [m]."""
-    return sum(leg.femur_length + leg.tibia_length for leg in robot.legs) / len(robot.legs)
-
-
 def _slope(sign: float) -> Callable[[RobotDescription, float, int], Fields]:
     return lambda robot, deg, seed: {"ground": Plane(slope=sign * math.radians(deg))}
 
 
 def _kerb(robot: RobotDescription, percent: float, seed: int) -> Fields:
-    return {"ground": Kerb(at=KERB_AT, height=percent / 100.0 * leg_length(robot))}
+    return {"ground": Kerb(at=KERB_AT, height=percent / 100.0 * mean_leg_length(robot))}
 
 
 def _waves(robot: RobotDescription, percent: float, seed: int) -> Fields:
-    leg = leg_length(robot)
+    leg = mean_leg_length(robot)
     return {"ground": Waves(amplitude=percent / 100.0 * leg, wavelength=WAVE_LEGS * leg)}
 
 

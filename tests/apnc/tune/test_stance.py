@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from apnc.tune.stance import StanceChange, _foot, leg_length, stood
+from apnc.tune.stance import StanceChange, _foot, stood
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.robot.model import JointInFile, JointsInFile
+from apnc_plant.robot.size import mean_leg_length
 
 STANCE = StanceChange(up=0.04, back=0.05, apart=0.06, fore_up=0.02)
 B = (-0.43, 0.18)
@@ -27,7 +28,7 @@ def robot() -> RobotDescription:
 
 def test_the_feet_stand_where_the_stance_says(robot: RobotDescription) -> None:
     found, b = stood(robot, B, STANCE)
-    L = leg_length(robot)
+    L = mean_leg_length(robot)
     for before, after in zip(robot.legs, found.legs, strict=True):
         end = np.sign(before.mount[0])
         (x0, z0), (x1, z1) = _foot(before, *B), _foot(after, *b)

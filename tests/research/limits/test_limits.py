@@ -13,6 +13,7 @@ from apnc.studies.runner import grid_of
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Kerb, Obstacles, Plane, Waves
 from apnc_plant.robot import load_robot
+from apnc_plant.robot.size import mean_leg_length
 from research import limits
 from research.limits.cases import AS_IT_IS, CASES, LIMITS
 from research.registry import STUDIES
@@ -29,7 +30,7 @@ def test_values_go_from_easy_to_hard_and_every_case_is_another_experiment() -> N
 
 
 def test_a_case_changes_what_it_says_in_units_of_the_robot() -> None:
-    robot, leg = load_robot("hexapod"), limits.cases.leg_length(load_robot("hexapod"))
+    robot, leg = load_robot("hexapod"), mean_leg_length(load_robot("hexapod"))
     own = limits.experiment("apnc", 3, AS_IT_IS, "hexapod")
 
     def of(case: str) -> Any:
