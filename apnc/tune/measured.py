@@ -32,7 +32,7 @@ MAX_SLIP: Final = 0.30
 WANTED_LIFT: Final = 0.06
 """Lift of every foot without cost [L]: the aim of 0.05 and a margin."""
 
-WANTED_SLIP: Final = 0.14
+WANTED_SLIP: Final = 0.12
 """Slip without cost, as a share of the stride [1]: the aim of 0.18 and a margin."""
 
 LATE: Final = 0.45

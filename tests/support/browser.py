@@ -3,38 +3,19 @@
 from __future__ import annotations
 
 import json
-import re
-import shutil
-import subprocess
 from pathlib import Path
 from typing import Any
 
 import pytest
+from driven import CHROMIUM, driven
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
 needs_browser = pytest.mark.skipif(
     CHROMIUM is None, reason="no chromium binary found: the report was not drawn in a browser"
 )
-FLAGS = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--enable-logging=stderr",
-    "--v=0",
-    "--virtual-time-budget=8000",
-    "--window-size=1400,1000",
-    "--dump-dom",
-]
-# Runs in the page after its own scripts and leaves what it saw where --dump-dom shows it.
+# Runs in the page after its own scripts and leaves what it saw in an element.
 PROBE = """<script>
-let apncTries = 10; // a busy machine draws no frame for a while
 window.addEventListener("load", () => setTimeout(function look() {
-  if (window.apncReady && !window.apncReady() && apncTries-- > 0) return setTimeout(look, 500);
+  if (window.apncReady && !window.apncReady()) return setTimeout(look, 100);
   const painted = (id) => {
     const canvas = document.getElementById(id);
     if (!canvas || !canvas.width) return 0;
@@ -56,17 +37,14 @@ window.addEventListener("load", () => setTimeout(function look() {
 
 def look(page: Path, folder: Path, extra: str = "") -> tuple[dict[str, Any], str]:
     """Open a copy of the page with the probe in chromium; what the probe saw, and the log."""
-    assert CHROMIUM is not None
     copy = folder / "probed.html"
     text = page.read_text(encoding="utf-8")
     copy.write_text(text.replace("</body>", extra + PROBE + "</body>"), encoding="utf-8")
-    profile = f"--user-data-dir={folder / 'profile'}"
-    command = [CHROMIUM, *FLAGS, profile, copy.as_uri()]
-    result = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
-    found = re.search(r'<pre id="probe">(.*?)</pre>', result.stdout, re.DOTALL)
-    assert found, f"the page did not finish loading:\n{result.stderr[-2000:]}"
-    seen: dict[str, Any] = json.loads(found[1])
-    return seen, result.stderr
+    with driven(folder) as browser:
+        browser.size(1400, 1000)
+        browser.open(copy.as_uri())
+        seen = browser.until("document.getElementById('probe')?.textContent")
+    return json.loads(seen), (folder / "browser.log").read_text(encoding="utf-8")
 
 
 def console_lines(log: str) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import shutil
 import subprocess
 import time
 from collections.abc import Iterator
@@ -12,8 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from browser import CHROMIUM
-
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
 PATIENCE = 60.0  # [s] that a busy machine may need
 
 
@@ -84,18 +84,23 @@ class Driven:
 
 @contextmanager
 def driven(folder: Path) -> Iterator[Driven]:
-    """A browser with an empty page; its profile is kept in a folder."""
+    """A browser with an empty page; its profile and its log are kept in a folder."""
     assert CHROMIUM is not None
     (asked, ask), (tell, told) = os.pipe(), os.pipe()
     command = [
         *("bash", "-c", f'exec 3<&{asked} 4>&{told}; exec "$@"', "bash"),
         *(CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"),
-        *("--no-first-run", "--disable-background-networking", "--remote-debugging-pipe"),
+        *("--no-first-run", "--disable-background-networking", "--disable-component-update"),
+        *("--disable-quic", "--disable-sync", "--enable-logging=stderr", "--v=0"),
+        "--remote-debugging-pipe",
         *(f"--user-data-dir={folder / 'profile'}", "about:blank"),
     ]
-    with subprocess.Popen(
-        command, pass_fds=(asked, told), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    ) as process:
+    with (
+        (folder / "browser.log").open("wb") as log,
+        subprocess.Popen(
+            command, pass_fds=(asked, told), stdout=subprocess.DEVNULL, stderr=log
+        ) as process,
+    ):
         os.close(asked)
         os.close(told)
         try:
