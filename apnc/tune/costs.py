@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -22,33 +23,52 @@ MILD: Final = 7.0
 """Cost up to which a run that does not fall costs as much as it does badly. Above, costs grow
 less and less and stay below that of any fall: a search is never paid for throwing a robot over."""
 
-WANTED_SPEED: Final = (0.065, 0.08)
-"""Speed without cost [sqrt(g L)]: at the lowest MI, and what is added until the highest."""
+
+@dataclass(frozen=True)
+class Weights:
+    """What a gait costs that is not perfect.
+
+    Args:
+        late: of a gait that forms late [1].
+        speed: without cost [sqrt(g L)]: at the lowest MI, and what is added until the highest.
+        turn: of a turn [1].
+    """
+
+    late: float
+    speed: tuple[float, float]
+    turn: float
+
+
+USUAL: Final = Weights(late=2.0, speed=(0.065, 0.08), turn=0.25)
+"""For a robot that is to walk well."""
+
+OF_PAPER: Final = Weights(late=6.0, speed=(0.045, 0.05), turn=0.5)
+"""For one that is to repeat the paper, which asks how soon and how surely a gait forms."""
 
 WANTED_TURN: Final = math.radians(10.0) / 45.0
 """Turning rate that costs little [rad/s], in the time of a robot of Lilibot's size."""
 
 
-def cost_of(run: Measured) -> float:
+def cost_of(run: Measured, weights: Weights = USUAL) -> float:
     """Cost of a run."""
     if run.fell < 1.0:
         return FAILED * (1.0 - SPARED * run.fell)
-    cost = _cost_of_gait(run) if run.kind in GAIT_KINDS else cost_of_paper(run)
+    cost = _cost_of_gait(run, weights) if run.kind in GAIT_KINDS else cost_of_paper(run)
     if cost <= MILD:
         return cost
     room = FAILED * (1.0 - SPARED) - MILD
     return MILD + room * (1.0 - math.exp((MILD - cost) / room))
 
 
-def _cost_of_gait(run: Measured) -> float:
+def _cost_of_gait(run: Measured, weights: Weights) -> float:
     """Cost of a run that is to show the gait, and did not fall."""
-    cost = 2.0 * min(run.mean_error / np.pi, 1.0) + 1.5 * run.end_error
+    cost = weights.late * min(run.mean_error / np.pi, 1.0) + 1.5 * run.end_error
     cost += 0.4 * (not run.strict) + _cost_of_no_walk(run)
-    wanted = WANTED_SPEED[0] + WANTED_SPEED[1] * run.share
+    wanted = weights.speed[0] + weights.speed[1] * run.share
     cost += 1.5 * min(1.0, max(0.0, 1.0 - run.speed / wanted))
     cost += 2.0 * run.saturated + 0.02 * run.transport
     if run.kind in ("walk", "apc"):
-        cost += run.feet + 0.25 * math.log1p(abs(run.turning) / WANTED_TURN)
+        cost += run.feet + weights.turn * math.log1p(abs(run.turning) / WANTED_TURN)
     return cost
 
 
@@ -78,7 +98,7 @@ def total(tasks: Sequence[Task], runs: Sequence[Measured], *, paper: bool = Fals
         runs: what was measured of them.
         paper: whether the speed is to grow with MI as the paper's does.
     """
-    costs = [cost_of(run) for run in runs]
+    costs = [cost_of(run, OF_PAPER if paper else USUAL) for run in runs]
     mean = sum(cost + cost**2 for cost in costs) / len(costs)
     if not paper:
         return mean

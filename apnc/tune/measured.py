@@ -32,6 +32,9 @@ MAX_SLIP: Final = 0.30
 WANTED_LIFT: Final = 0.06
 """Lift of every foot without cost [L]: the aim of 0.05 and a margin."""
 
+WANTED_LIFT_OF_PAPER: Final = 0.05
+"""The same for a robot that is to repeat the paper [L]."""
+
 WANTED_SLIP: Final = 0.12
 """Slip without cost, as a share of the stride [1]: the aim of 0.18 and a margin."""
 
@@ -111,7 +114,9 @@ def measured(start: Start, task: Task, record: Record) -> Measured:
     ahead = metrics.smoothed_speed(time[late], where, yaw)
     speed = float(ahead.mean())
     feet = Feet(record, late)
-    lifts, slips, cost = _feet(feet, speed, start.length)
+    lifts, slips, cost = _feet(
+        feet, speed, start.length, WANTED_LIFT_OF_PAPER if start.paper else WANTED_LIFT
+    )
     turn = metrics.turned(yaw) or 0.0
     stall = _stall_torques(record.robot)
     torque = np.abs(signals["joint_torque"][late])
@@ -159,14 +164,16 @@ def _stall_torques(robot: RobotDescription) -> Array:
     ])  # fmt: skip
 
 
-def _feet(feet: Feet, speed: float, length: float) -> tuple[float, float, float]:
+def _feet(
+    feet: Feet, speed: float, length: float, wanted_lift: float
+) -> tuple[float, float, float]:
     """Lift [L], slip [1], and the mean cost of the feet."""
     stride = max(speed, 0.02 * math.sqrt(length / 0.155)) / (feet.stride_frequency or 1.0)
     lifts = [0.0 if lift is None else lift / length for lift in feet.lifts]
     slips = [1.0 if slip is None else slip / stride for slip in feet.slips]
     downs = [0.0 if count is None else count for count in feet.touch_downs]
     cost = (
-        _mean(lifts, lambda lift: min(1.0, max(0.0, 1.0 - lift / WANTED_LIFT)))
+        _mean(lifts, lambda lift: min(1.0, max(0.0, 1.0 - lift / wanted_lift)))
         + _mean(slips, lambda slip: min(2.0, max(0.0, slip / WANTED_SLIP - 1.0)))
         + _mean(downs, lambda count: min(1.0, abs(count - 1.0)))
     )

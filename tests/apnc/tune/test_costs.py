@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from apnc.tune.costs import MILD, cost_of
+from apnc.tune.costs import MILD, OF_PAPER, USUAL, Weights, cost_of
 from apnc.tune.measured import MAX_SLIP, MIN_LIFT, MIN_SPEED, Measured
 
 WALK = Measured(
@@ -25,18 +25,23 @@ def fallen(kind: str, at: float) -> Measured:
     )  # fmt: skip
 
 
+@pytest.mark.parametrize("weights", [USUAL, OF_PAPER])
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_fall_costs_more_than_whatever_a_robot_does_that_stays_up(kind: str) -> None:
+def test_a_fall_costs_more_than_whatever_a_robot_does_that_stays_up(
+    kind: str, weights: Weights
+) -> None:
     # every measure at its worst, one after the other and all together
     worst = {
         "strict": False, "mean_error": np.pi, "end_error": 1.5, "speed": -1.0, "feet": 4.0,
         "turning": -30.0, "saturated": 1.0, "transport": 1e4,
     }  # fmt: skip
-    latest = cost_of(fallen(kind, 0.999))
+    latest = cost_of(fallen(kind, 0.999), weights)
     for chosen in product((False, True), repeat=len(worst)):
         changed = {name: worst[name] for name, on in zip(worst, chosen, strict=True) if on}
-        assert cost_of(replace(WALK, kind=kind, **changed)) < latest  # type: ignore[arg-type]
-    assert latest < cost_of(fallen(kind, 0.5)) < cost_of(fallen(kind, 0.0))
+        run = replace(WALK, kind=kind, **changed)  # type: ignore[arg-type]
+        assert cost_of(run, weights) < latest
+    early, at_once = (cost_of(fallen(kind, at), weights) for at in (0.5, 0.0))
+    assert latest < early < at_once
 
 
 def test_a_worse_run_costs_more_also_where_costs_are_large() -> None:
