@@ -58,6 +58,12 @@ def tune(
     body: Annotated[
         bool, Option("--body", help="Search centre of mass, mass split, rotors and feet as well.")
     ] = False,
+    keep: Annotated[
+        str | None, Option(help="Variables to leave as they are, as a1,a2,stance.up.")
+    ] = None,
+    near: Annotated[
+        bool, Option("--near", help="Stay near the robot of the file, as one tuned before.")
+    ] = False,
     workers: Annotated[int | None, Option(help="Number of threads. Default: all cores.")] = None,
     scheduler: Annotated[
         str | None, Option(help="Address of a Dask scheduler, as tcp://host:8786.")
@@ -91,7 +97,12 @@ def tune(
                 seed=seed,
                 mi=_range(mi) if mi is not None else None,
                 paper=paper,
-                allowed=Allowed(servo=not keep_servo, body=body),
+                allowed=Allowed(
+                    servo=not keep_servo,
+                    body=body,
+                    kept=tuple(keep.split(",")) if keep else (),
+                ),
+                near=near,
                 workers=workers if workers is not None else os.cpu_count() or 1,
                 scheduler=scheduler,
                 log=log,

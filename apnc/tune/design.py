@@ -115,6 +115,8 @@ class Start:
         mi: MI range that is aimed at before it is scaled.
         variables: what is searched.
         paper: whether it is judged by the paper's other experiments, too.
+        near: whether the search stays near the robot of the file.
+        reference: whether its stance changes by the reference pose alone, with b1 and b2 kept.
     """
 
     robot: RobotDescription
@@ -122,6 +124,8 @@ class Start:
     mi: tuple[float, float]
     variables: tuple[DesignVariable, ...]
     paper: bool = False
+    near: bool = False
+    reference: bool = False
 
     @property
     def length(self) -> float:
@@ -195,7 +199,7 @@ def robot_of(start: Start, values: Mapping[str, float]) -> RobotDescription:
         robot = geared(robot, values["servo.stiffness"], values["servo.lag"] * start.time)
     b = float(_parameter(robot, "b1")), float(_parameter(robot, "b2"))
     stance = {name[7:]: value for name, value in values.items() if name.startswith("stance.")}
-    robot, (b1, b2) = stood(robot, b, StanceChange(**stance))
+    robot, (b1, b2) = stood(robot, b, StanceChange(**stance), keep=start.reference)
     gains: dict[str, Any] = {
         name: round(value) if variable_named(name).type is Type.integer else value
         for name, value in values.items()
@@ -247,7 +251,12 @@ def _body(robot: RobotDescription, values: Mapping[str, float], length: float) -
 
 
 def variables_for(
-    robot: RobotDescription, *, servo: bool = True, body: bool = False, scale: bool = True
+    robot: RobotDescription,
+    *,
+    servo: bool = True,
+    body: bool = False,
+    scale: bool = True,
+    kept: Sequence[str] = (),
 ) -> tuple[DesignVariable, ...]:
     """What is searched.
 
@@ -256,11 +265,24 @@ def variables_for(
         servo: whether the gains of the servos may be changed.
         body: whether what is uncertain of the body may be changed.
         scale: whether the MI range may be scaled.
+        kept: names of variables of stance and controller that stay as they are; b1 and b2 among
+            them turn the reference pose in their place, see :attr:`Start.reference`.
+
+    Raises:
+        ValueError: one of these is no such variable.
     """
     gains = [each for each in GAINS if scale or each.name != "mi.scale"]
     many = MANY_LEGS if len(robot.legs) > FEW_LEGS else ()
     stance = POSE if any(leg.has_coxa for leg in robot.legs) else STANCE
-    return (*stance, *gains, *many, *(SERVO if servo else ()), *(BODY if body else ()))
+    own = (*stance, *gains, *many)
+    names = [*dict.fromkeys(each.name for each in (*own, *POSE))]
+    for name in kept:
+        if name not in names:
+            raise ValueError(f"{name} cannot be kept; allowed: {', '.join(names)}")
+    if stance is STANCE and ("b1" in kept) != ("b2" in kept):
+        raise ValueError("b1 and b2 can be kept only together: the stance turns both joints")
+    own = tuple(each for each in own if each.name not in kept)
+    return (*own, *(SERVO if servo else ()), *(BODY if body else ()))
 
 
 def _parameter(robot: RobotDescription, name: str) -> Any:

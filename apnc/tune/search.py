@@ -31,6 +31,9 @@ CANDIDATES_OF_PAPER: Final = 32
 SIGMA: Final = 0.15
 """First standard deviation, as a share of each range."""
 
+NEAR_SIGMA: Final = 0.05
+"""First standard deviation of a search that stays near its start, as a share of each range."""
+
 SCOUTS: Final = 4
 """Generations at the beginning that look around the start; the search begins at their best."""
 
@@ -123,7 +126,7 @@ def search(
             costs = log.costs(count.generations, points)
             if costs is None:
                 # scouts walk the same runs, so that their costs can be compared
-                number = max(count.generations, SCOUTS)
+                number = count.generations if start.near else max(count.generations, SCOUTS)
                 costs = _costs(start, evaluator, points, 1000 * seed + number, count)
                 log.write(count.generations, points, costs)
             else:
@@ -199,6 +202,8 @@ class _Checks:
 class _Strategy:
     """Scouts around the start; then CMA-ES, which begins at the best of them.
 
+    A search that stays near its start has no scouts and smaller steps.
+
     When it has converged, it begins anew around its favourite, with more candidates.
     """
 
@@ -212,7 +217,8 @@ class _Strategy:
         self._seed = seed
         self._size = CANDIDATES_OF_PAPER if start.paper else CANDIDATES
         self.favourite: list[float] = start.first()
-        self._scouts, self._least = SCOUTS, math.inf
+        self._sigma = NEAR_SIGMA if start.near else SIGMA
+        self._scouts, self._least = 0 if start.near else SCOUTS, math.inf
         self._rng, self._first = np.random.default_rng(seed), np.array(self.favourite)
         self._now: Any = None
 
@@ -220,7 +226,7 @@ class _Strategy:
         options = {
             "bounds": [0.0, 1.0], "seed": self._seed, "popsize": self._size, "verbose": -9,
         }  # fmt: skip
-        self._now = self._cma.CMAEvolutionStrategy(self.favourite, SIGMA, options)
+        self._now = self._cma.CMAEvolutionStrategy(self.favourite, self._sigma, options)
 
     def ask(self) -> list[Array]:
         """Points of the next generation."""

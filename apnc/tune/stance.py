@@ -37,18 +37,23 @@ class StanceChange:
 
 
 def stood(
-    robot: RobotDescription, b: tuple[float, float], stance: StanceChange
+    robot: RobotDescription,
+    b: tuple[float, float],
+    stance: StanceChange,
+    *,
+    keep: bool = False,
 ) -> tuple[RobotDescription, tuple[float, float]]:
     """The robot in another stance.
 
     What all legs have in common of the change goes into the offsets of the motor neurons
     (Eq. 8, 9), so that the reference pose of a robot whose legs are alike stays as it is. The rest
-    goes into the reference angles of each leg.
+    goes into the reference angles of each leg; all of it does if the offsets are to be kept.
 
     Args:
         robot: the robot.
         b: offsets b1 of the hip and b2 of the knee that hold in its present stance [rad].
         stance: the change.
+        keep: whether the offsets stay as they are.
 
     Returns:
         The robot, and its offsets b1 and b2 [rad].
@@ -64,7 +69,7 @@ def stood(
         down += L * (stance.up + 0.5 * end * stance.fore_up)
         wanted.append(_turned(leg, forward, down))
     moved = [_offsets(leg, *pose) for leg, pose in zip(robot.legs, wanted, strict=True)]
-    b1, b2 = (float(x) for x in np.mean(moved, axis=0))
+    b1, b2 = b if keep else (float(x) for x in np.mean(moved, axis=0))
     legs = tuple(
         _referred(leg, hip - b1, knee - b2)
         for leg, (hip, knee) in zip(robot.legs, moved, strict=True)

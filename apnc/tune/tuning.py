@@ -37,10 +37,12 @@ class Allowed:
     Args:
         servo: stiffness and damping of the servos. Their torque and speed limits never change.
         body: centre of mass, mass split, rotors and feet, for a robot that was never weighed.
+        kept: names of variables of stance and controller that stay as they are.
     """
 
     servo: bool = True
     body: bool = False
+    kept: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,7 @@ def tune(
     mi: tuple[float, float] | None = None,
     paper: bool = False,
     allowed: Allowed | None = None,
+    near: bool = False,
     workers: int = 1,
     scheduler: str | None = None,
     log: Path | None = None,
@@ -101,6 +104,7 @@ def tune(
         paper: judge by the paper's other experiments as well: update rates, states S1 to S3,
             payload, a damaged leg, turns, and a speed that doubles from MI 0.15 to 0.40.
         allowed: what may be changed; the defaults of :class:`Allowed` if omitted.
+        near: stay near the robot of the file, as one that was tuned before.
         workers: number of threads.
         scheduler: address of a Dask scheduler whose workers walk instead.
         log: CSV file of all candidates.
@@ -127,8 +131,16 @@ def tune(
         description,
         description.rate or 1.0 / float(variable_named("Ts").start or 0.0),
         mi,
-        variables_for(description, servo=allowed.servo, body=allowed.body, scale=not paper),
+        variables_for(
+            description,
+            servo=allowed.servo,
+            body=allowed.body,
+            scale=not paper,
+            kept=allowed.kept,
+        ),
         paper,
+        near,
+        reference={"b1", "b2"} <= set(allowed.kept),
     )
     lines = Log(log)
     lines.begin(
@@ -136,7 +148,7 @@ def tune(
         {
             "robot": hashlib.sha256(path_of(robot).read_bytes()).hexdigest()[:16],
             "seed": seed, "mi": list(mi), "servo": allowed.servo, "body": allowed.body,
-            "paper": paper, "version": __version__,
+            "paper": paper, "near": near, "kept": list(allowed.kept), "version": __version__,
         },
         resume=resume,
     )  # fmt: skip
@@ -159,7 +171,7 @@ def tune(
         best, count = search(
             start, evaluator, lines, seed=seed, candidates=candidates, progress=told
         )
-        again = _command(robot, seed, count, mi, allowed, paper)
+        again = _command(robot, seed, count, start, allowed)
         measuring()
         last = replace(evaluator, stop=stop)
         found = best.candidate.robot if paper else _within(start, best.candidate, last)
@@ -220,17 +232,19 @@ def _check_packages() -> None:
             raise RuntimeError(missing(package, "tune"))
 
 
-def _command(
-    robot: str | Path,
-    seed: int,
-    count: Count,
-    mi: tuple[float, float],
-    allowed: Allowed,
-    paper: bool,
-) -> str:
+def _command(robot: str | Path, seed: int, count: Count, start: Start, allowed: Allowed) -> str:
     words: list[Any] = ["apnc", "tune", robot, "--candidates", count.checked, "--seed", seed]
-    words += ["--paper"] if paper else []
-    if mi != (MI_OF_PAPER if paper else MI_AIMED):
-        words += ["--mi", f"{mi[0]:g},{mi[1]:g}"]
-    words += ([] if allowed.servo else ["--keep-servo"]) + (["--body"] if allowed.body else [])
+    words += [
+        flag
+        for flag, on in (
+            ("--paper", start.paper),
+            ("--near", start.near),
+            ("--keep-servo", not allowed.servo),
+            ("--body", allowed.body),
+        )
+        if on
+    ]
+    words += ["--keep", ",".join(allowed.kept)] if allowed.kept else []
+    if start.mi != (MI_OF_PAPER if start.paper else MI_AIMED):
+        words += ["--mi", f"{start.mi[0]:g},{start.mi[1]:g}"]
     return shlex.join(map(str, words))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from apnc.tune.design import MI_AIMED, Start, candidate, variables_for
+from apnc_core.interface import Parameters
 from apnc_plant.robot import load_robot
 
 PAGE = Path(__file__).parents[3] / "docs" / "robots" / "tune.md"
@@ -50,3 +51,16 @@ def test_a_place_is_that_of_its_value_and_changes_the_robot(variable: object) ->
     after = candidate(start, x).robot
     assert after != before
     assert after.mass == pytest.approx(before.mass)
+
+
+def test_what_is_kept_is_as_in_the_file() -> None:
+    robot, kept = load_robot("lilibot"), ("a1", "b1", "b2")
+    variables = variables_for(robot, kept=kept)
+    start = Start(robot, 60.0, MI_AIMED, variables, reference=True)
+    found = candidate(start, np.full(len(variables), 0.7)).robot
+    for name in kept:
+        assert found.controller.get(name, getattr(Parameters(), name)) == getattr(
+            Parameters(), name
+        )
+    assert found.controller["a2"] != Parameters().a2
+    assert found.legs[0].femur_angle != robot.legs[0].femur_angle

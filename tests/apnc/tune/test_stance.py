@@ -42,6 +42,14 @@ def test_a_change_that_all_legs_share_leaves_the_reference_pose(robot: RobotDesc
     assert b != pytest.approx(B)
 
 
+def test_offsets_that_are_kept_leave_the_same_stance(robot: RobotDescription) -> None:
+    free, b = stood(robot, B, STANCE)
+    kept, same = stood(robot, B, STANCE, keep=True)
+    assert same == B != b
+    for one, other in zip(free.legs, kept.legs, strict=True):
+        assert _foot(other, *B) == pytest.approx(_foot(one, *b), abs=1e-12)
+
+
 def test_joints_of_the_model_file_keep_their_angles(robot: RobotDescription) -> None:
     found, _ = stood(robot, B, STANCE)
     leg, own = robot.legs[0], found.legs[0]

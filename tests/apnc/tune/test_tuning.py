@@ -7,11 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-from apnc.tune import Stopped, Tuned, tune
+from apnc.tune import Allowed, Stopped, Tuned, tune
+from apnc.tune.design import MI_AIMED, Start, variables_for
 from apnc.tune.log import read_rows
-from apnc.tune.search import Best, Count
+from apnc.tune.search import Best, Count, _Strategy
 from apnc_plant.robot import load_robot
 
 FEW: dict[str, Any] = {"candidates": 8, "seeds": 1}
@@ -130,6 +132,20 @@ def test_torque_limits_and_what_is_not_allowed_stay(alone: tuple[Tuned, bytes]) 
         assert getattr(found.servo, name) == getattr(before.servo, name)
 
 
+def test_the_command_says_what_was_kept() -> None:
+    found = searched(allowed=Allowed(kept=("a1", "b1", "b2")), near=True)
+    assert found.command.endswith("--near --keep a1,b1,b2")
+
+
+def test_a_search_that_stays_near_begins_with_small_steps() -> None:
+    def farthest(near: bool) -> float:
+        robot = load_robot("lilibot")
+        start = Start(robot, 60.0, MI_AIMED, variables_for(robot), near=near)
+        return float(np.abs(np.array(_Strategy(start, 1).ask()) - start.first()).max())
+
+    assert farthest(near=True) < 0.3 < farthest(near=False)
+
+
 @pytest.mark.parametrize(
     ("asked", "why"),
     [
@@ -143,6 +159,8 @@ def test_torque_limits_and_what_is_not_allowed_stay(alone: tuple[Tuned, bytes]) 
         ({"mi": (float("nan"), 0.2)}, "mi = nan"),
         ({"workers": 0}, "workers = 0; allowed: 1 and more"),
         ({"seeds": 0}, "seeds = 0; allowed: 1 and more"),
+        ({"allowed": Allowed(kept=("a3",))}, "a3 cannot be kept; allowed: stance.up, "),
+        ({"allowed": Allowed(kept=("b1",))}, "b1 and b2 can be kept only together"),
     ],
 )
 def test_what_is_not_allowed_is_refused_before_anything_is_walked(
