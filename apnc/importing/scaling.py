@@ -2,6 +2,10 @@
 
 Two robots move alike if times go with the square root of length and forces with weight (equal
 Froude numbers). In the rules m is the mass and L the length of a leg, as shares of Lilibot's.
+
+A file that limits the torque of a joint says how large its motor is. With s, the share that this
+limit is of Lilibot's scaled stall torque, at most 1, the rotor is as much smaller, and so is half
+of the stiffness. The other half stays, because it carries the weight.
 """
 
 from __future__ import annotations
@@ -12,11 +16,13 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
+import numpy as np
+
 from apnc.importing.legs import LegGeometry
 from apnc.importing.model import Motor
 from apnc.importing.servos import Servos, most_frequent, servos_of
 from apnc_core.interface import Parameters
-from apnc_plant.robot import GRAVITY, RobotDescription, load_robot
+from apnc_plant.robot import GRAVITY, MassProperties, RobotDescription, load_robot
 from apnc_plant.signals import JOINTS
 
 LARGEST_EFFORT: Final = 2.5
@@ -27,6 +33,11 @@ LARGEST_VELOCITY: Final = 200.0
 
 USUAL_VELOCITY: Final = 20.0
 """No-load speed of a joint with a torque limit but no speed limit [rad/s]."""
+
+SHORTEST_RUN_UP: Final = 0.25
+"""Time in which the torque limit brings a rotor alone to the no-load speed, as a share of
+Lilibot's, below which the rotor is a placeholder. Gears do not change this time; motors of real
+robots have 0.3 to 1."""
 
 Place = tuple[int, str]
 """Number of a leg, and name of its joint."""
@@ -114,11 +125,16 @@ def guess(legs: Sequence[LegGeometry], size: Size, rate: float) -> Guessed:
     found = _Found(size, m, L)
     servos = found.servos(legs)
     radii = found.radii(legs)
+    foot = found.lightest_foot(legs)
     contact = {
         "foot_radius": most_frequent(radii),
         "stiffness": found.scaled("contact.stiffness", like.contact.stiffness, m / L, "N/m", "m/L"),
         "damping": found.scaled(
-            "contact.damping", like.contact.damping, m / time, "N s/m", "m/sqrt(L)"
+            "contact.damping",
+            like.contact.damping,
+            math.sqrt(m / L * foot),
+            "N s/m",
+            f"sqrt(m/L f), f = {foot:.3g} being the mass of a foot",
         ),
         "damping_depth": found.scaled(
             "contact.damping_depth", like.contact.damping_depth, L, "m", "L"
@@ -159,11 +175,24 @@ def _gains(legs: int, of: int) -> dict[str, float]:
     return gains
 
 
+def _foot_mass(tibia: MassProperties, length: float, rotor: float) -> float:
+    """Mass that a foot has by the turning of its tibia [kg].
+
+    Args:
+        tibia: mass properties in the frame at the knee.
+        length: of the tibia [m].
+        rotor: reflected inertia of the rotor of the knee [kg m^2].
+    """
+    x, _, z = tibia.com
+    return float(rotor + tibia.inertia[1, 1] + tibia.mass * (x * x + z * z)) / length**2
+
+
 class _Found:
     """What the file says of the joints, and what is estimated in its place."""
 
     def __init__(self, size: Size, m: float, L: float) -> None:
         self._size, self._m, self._length = size, m, L
+        self._rotors: Mapping[Place, float] = {}
         self.estimates: list[Estimate] = []
         self.dropped: list[str] = []
 
@@ -207,20 +236,25 @@ class _Found:
             self._estimate("servo.no_load_speed", USUAL_VELOCITY, "rad/s", "usual of geared motors")
             speed = dict.fromkeys(motors, USUAL_VELOCITY)
         stiffness, damping = self._filled(motors, "stiffness"), None
+        shares = {at: min(1.0, value / (own.stall_torque * m * L)) for at, value in stall.items()}
         if stiffness is not None and min(stiffness.values()) > 0.0:
             damping = self._filled(motors, "damping")
         else:
-            stiffness = self._all(motors, "stiffness", own.stiffness, m * L, "N m/rad", "m L")
+            half = {at: (1.0 + share) / 2.0 for at, share in shares.items()}
+            stiffness = self._shared(
+                "stiffness", own.stiffness, m * L, half, "N m/rad", "m L (1 + s)/2"
+            )
         if damping is None:
             lag = own.damping / own.stiffness
             damping = {at: value * lag for at, value in stiffness.items()}
             why = f"stiffness times Lilibot's lag of {lag:.3g} s"
             self._estimate("servo.damping", max(damping.values()), "N m s/rad", why)
-        rotors = self._filled(motors, "armature")
+        rotors = self._armatures(motors, stall, speed)
         if rotors is None or not any(rotors.values()):
-            rotors = self._all(
-                motors, "reflected_inertia", own.reflected_inertia, m * L**2, "kg m^2", "m L^2"
+            rotors = self._shared(
+                "reflected_inertia", own.reflected_inertia, m * L**2, shares, "kg m^2", "m L^2 s"
             )
+        self._rotors = rotors
         values = {
             "stiffness": stiffness, "damping": damping, "stall_torque": stall,
             "no_load_speed": speed, "reflected_inertia": rotors,
@@ -246,6 +280,54 @@ class _Found:
     ) -> dict[Place, float]:
         """A number of Lilibot times a factor, for all joints."""
         return dict.fromkeys(motors, self.scaled(f"servo.{key}", value, factor, unit, rule))
+
+    def _shared(
+        self,
+        key: str,
+        value: float,
+        factor: float,
+        shares: Mapping[Place, float],
+        unit: str,
+        rule: str,
+    ) -> dict[Place, float]:
+        """A number of Lilibot times a factor and the share of each joint; the largest is told."""
+        most, least = max(shares.values()), min(shares.values())
+        if least < most:
+            rule += f"; down to {value * factor * least:.4g} where the torque limit is lower"
+        self.scaled(f"servo.{key}", value, factor * most, unit, rule)
+        return {at: value * factor * share for at, share in shares.items()}
+
+    def _armatures(
+        self, motors: Motors, stall: Mapping[Place, float], speed: Mapping[Place, float]
+    ) -> dict[Place, float] | None:
+        """Inertias of rotors that the file gives, without placeholders."""
+        own = lilibot()[0].servo
+        run_up = SHORTEST_RUN_UP * own.reflected_inertia * own.no_load_speed / own.stall_torque
+        given = {at: motor.armature for at, (_, motor) in motors.items() if motor.armature}
+        light = [at for at, value in given.items() if value * speed[at] < run_up * stall[at]]
+        if light:
+            at = light[0]
+            self.dropped.append(
+                f"armature {given[at]:g} kg m^2 of {len(light)} joints ({motors[at][0]} and so "
+                f"on): a placeholder, below {run_up * stall[at] / speed[at]:.2g} kg m^2"
+            )
+        return self._filled(motors, "armature", light)
+
+    def lightest_foot(self, legs: Sequence[LegGeometry]) -> float:
+        """Mass of the lightest foot, as a share of that of Lilibot's feet.
+
+        It is known when the servos are.
+        """
+        like, _ = lilibot()
+        leg = like.legs[0]
+        tibia = MassProperties(leg.tibia.mass, np.array(leg.tibia.com), leg.tibia.inertia_tensor())
+        usual = _foot_mass(tibia, leg.tibia_length, like.servo.reflected_inertia)
+        last = [{angle: joint for joint, (angle, _) in leg.counted(0.0).items()} for leg in legs]
+        masses = [
+            _foot_mass(leg.bodies[2], leg.tibia, self._rotors[k, of.get("tibia", of["femur"])])
+            for k, (leg, of) in enumerate(zip(legs, last, strict=True))
+        ]
+        return min(masses) / usual
 
     def _filled(
         self, motors: Motors, key: str, without: Container[Place] = ()

@@ -87,6 +87,49 @@ def test_a_larger_robot_moves_alike(tmp_path: Path) -> None:
         assert value == pytest.approx(original * factor)
 
 
+def with_effort(effort: str, folder: Path) -> ImportedRobot:
+    """Lilibot with another torque limit, from a URDF that says no more of its servos."""
+    text = re.sub(r"<!--.*?-->", "", robot_urdf(load_robot("lilibot")), flags=re.DOTALL)
+    path = folder / "robot.urdf"
+    path.write_text(re.sub(r'effort="[^"]*"', f'effort="{effort}"', text))
+    return import_robot(path)
+
+
+def test_a_weaker_motor_is_lighter_and_softer(tmp_path: Path) -> None:
+    own = load_robot("lilibot")
+    found = with_effort(repr(own.servo.stall_torque / 4.0), tmp_path)
+    servo, contact = found.robot.servo, found.robot.contact
+    assert servo.reflected_inertia == pytest.approx(own.servo.reflected_inertia / 4.0)
+    assert servo.stiffness == pytest.approx(own.servo.stiffness * 0.625)
+    assert servo.damping == pytest.approx(own.servo.damping * 0.625)
+    # nearly all of the mass of a foot is that of the rotor, so damping falls with the root of it
+    assert 0.5 < contact.damping / own.contact.damping < 0.53
+    assert contact.stiffness == pytest.approx(own.contact.stiffness)
+
+
+def test_a_stronger_motor_is_as_lilibots(tmp_path: Path) -> None:
+    own = load_robot("lilibot").servo
+    servo = with_effort(repr(own.stall_torque * 2.0), tmp_path).robot.servo
+    assert servo.stall_torque == pytest.approx(own.stall_torque * 2.0)
+    assert servo.reflected_inertia == pytest.approx(own.reflected_inertia)
+    assert servo.stiffness == pytest.approx(own.stiffness)
+
+
+@pytest.mark.parametrize(("share", "kept"), [(0.26, True), (0.24, False)])
+def test_a_rotor_too_light_for_its_torque_is_a_placeholder(
+    share: float, kept: bool, tmp_path: Path
+) -> None:
+    own = load_robot("lilibot")
+    light = replace(own.servo, reflected_inertia=share * own.servo.reflected_inertia)
+    path = tmp_path / "robot.urdf"
+    path.write_text(robot_urdf(replace(own, servo=light)))
+    found = import_robot(path)
+    rotor = light.reflected_inertia if kept else own.servo.reflected_inertia
+    assert found.robot.servo.reflected_inertia == pytest.approx(rotor)
+    told = [line for line in found.dropped if line.startswith("armature 0.0023")]
+    assert len(told) == (0 if kept else 1)
+
+
 def test_more_legs_bear_less_each(tmp_path: Path) -> None:
     found = bare(load_robot("octopod"), tmp_path)
     assert [leg.name for leg in found.robot.legs] == [
