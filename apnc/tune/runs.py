@@ -97,7 +97,8 @@ def of_generation(
     """Runs of the candidates of a generation: the same seeds, MI and chance for each of them.
 
     Every generation has bodies of its own that are off by ``MARGIN``, so that no set of gains is
-    found that walks one body only.
+    found that walks one body only. Where the paper's experiments are judged, the walks over MI are
+    those of the robot itself: there are many other runs with such bodies.
 
     Args:
         start: what is tuned.
@@ -127,7 +128,8 @@ def of_generation(
         tasks = [
             _task(
                 start, each, kind, share, WALK_S, conditions,
-                seed=seeds[k], body=bodies[k % BODIES], coarse=True,
+                seed=seeds[k], coarse=True,
+                body=each.robot if start.paper and kind in ("walk", "apc") else bodies[k % BODIES],
             )
             for k, (kind, share, conditions) in enumerate(plan)
         ]  # fmt: skip
