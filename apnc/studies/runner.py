@@ -12,7 +12,6 @@ import apnc_core
 from apnc.features import walk_features
 from apnc.loop.batch import Stop
 from apnc.loop.csv_file import write_csv
-from apnc.loop.engines import COMPILED
 from apnc.loop.many import walk_many
 from apnc.loop.of_robot import warn_of_mi
 from apnc.loop.record import Record
@@ -152,9 +151,9 @@ def run_trials(
 ) -> Iterator[Result]:
     """Run trials and give their results as they finish.
 
-    Trials in C run first, side by side. Trials in other engines follow one by one; a study with
-    several workers calls this in several processes. A trial that raises gives a result with its
-    error.
+    Trials in C run first, side by side. Trials in other engines, and those whose study makes the
+    robot itself, follow one by one; a study with several workers calls this in several processes. A
+    trial that raises gives a result with its error.
 
     Args:
         trials: the trials to run.
@@ -163,7 +162,7 @@ def run_trials(
             begins after it has returned True.
         series: folder for the records. None keeps no records.
     """
-    side_by_side = [trial for trial in trials if trial.experiment.engine == COMPILED]
+    side_by_side = [trial for trial in trials if trial.in_c]
     for index, found in walk_many(
         [trial.experiment for trial in side_by_side],
         lambda at, record: _result(side_by_side[at], record, series),
@@ -172,7 +171,7 @@ def run_trials(
     ):
         yield _failed(side_by_side[index], found) if isinstance(found, Exception) else found
     for trial in trials:
-        if trial.experiment.engine != COMPILED:
+        if not trial.in_c:
             if stop():
                 return
             yield run_trial(trial, series)
@@ -180,8 +179,10 @@ def run_trials(
 
 def run_trial(trial: Trial, series: Path | None = None) -> Result:
     """Run one trial and give its result, see :func:`run_trials`."""
+    made = load(trial.entry).plant
     try:
-        return _result(trial, walk_one(trial.experiment), series)
+        plant = None if made is None else made(trial.experiment)
+        return _result(trial, walk_one(trial.experiment, plant=plant), series)
     except Exception as error:
         return _failed(trial, error)
 

@@ -21,6 +21,7 @@ from apnc.studies.claims import Claim
 from apnc.studies.registry import CONTROLLERS_OPTION, ROBOT, Entry
 from apnc.studies.results import Result, TrialId
 from apnc_core.in_python import in_python
+from apnc_plant.plant import Plant
 from apnc_plant.robot import RobotDescription
 
 AxisValue = str | float | int
@@ -67,6 +68,11 @@ class Trial:
         """Name of the study."""
         return self.entry.name
 
+    @property
+    def in_c(self) -> bool:
+        """Whether it walks in C, side by side with others."""
+        return self.experiment.engine == COMPILED and load(self.entry).plant is None
+
     @cached_property
     def id(self) -> TrialId:
         """Study, label of the controller, and key.
@@ -99,6 +105,8 @@ class Study:
             called when all results are there.
         table: function that makes a Markdown table of the results. None makes no table.
         engine: engine of all trials. None leaves it to the experiments.
+        plant: function that makes the robot of an experiment at its start. None takes that of the
+            experiment's engine.
     """
 
     entry: Entry
@@ -112,6 +120,7 @@ class Study:
     scenes: Callable[[Robot], list[Figure]] = lambda robot: []
     table: Callable[[Sequence[Result]], str] | None = None
     engine: str | None = COMPILED
+    plant: Callable[[Experiment], Plant] | None = None
 
     @property
     def name(self) -> str:

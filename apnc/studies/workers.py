@@ -13,7 +13,6 @@ from typing import Any, Final, Protocol
 
 from apnc.extras import install_command
 from apnc.loop.batch import Lanes, Stop, lanes_of
-from apnc.loop.engines import COMPILED
 from apnc.studies.results import Result
 from apnc.studies.study import Trial
 
@@ -49,7 +48,7 @@ def pool(
         return
     if workers < 1:
         raise ValueError(f"workers = {workers} is not at least 1")
-    others = {t.experiment.engine for t in trials} - {COMPILED}
+    others = {t.experiment.engine for t in trials if not t.in_c}
     yield _processes(workers, sorted(others)) if others and workers > 1 else None
 
 
@@ -122,24 +121,21 @@ def results_of(
     """
     here, sent = trials, list[Trial]()
     if executor is not None:
-        here = [] if cluster else [t for t in trials if _in_c(t)]
-        sent = [t for t in trials if cluster or not _in_c(t)]
+        here = [] if cluster else [t for t in trials if t.in_c]
+        sent = [t for t in trials if cluster or not t.in_c]
     yield from walk(here, workers=workers, stop=stop)
     if executor is not None and (chunks := chunks_of(sent)):
         at_once = len(chunks) if cluster else workers
         yield from _sent(chunks, partial(_all_of, walk), executor, at_once, stop)
 
 
-def _in_c(trial: Trial) -> bool:
-    return trial.experiment.engine == COMPILED
-
-
 def chunks_of(trials: Sequence[Trial]) -> list[list[Trial]]:
     """Groups of trials that can walk side by side. A trial in another engine is its own group."""
     kinds: dict[Lanes, list[Trial]] = {}
-    for trial in filter(_in_c, trials):
-        kinds.setdefault(lanes_of(trial.experiment), []).append(trial)
-    others = [[trial] for trial in trials if not _in_c(trial)]
+    for trial in trials:
+        if trial.in_c:
+            kinds.setdefault(lanes_of(trial.experiment), []).append(trial)
+    others = [[trial] for trial in trials if not trial.in_c]
     parts = (kind[at : at + CHUNK] for kind in kinds.values() for at in range(0, len(kind), CHUNK))
     return [*parts, *others]
 

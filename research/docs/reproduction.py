@@ -2,11 +2,11 @@
 
 python -m research.docs.reproduction apnc-study-all/claims.md apnc-research-symmetry/claims.md
 
-The table of verdicts goes into ``docs/reproduction.md``; what was measured goes into
-``docs/reproduction/claims.md``, which is written as a whole. The words of both are in
-``reasons.toml``. A claim without an entry there, an entry without a claim, or another verdict than
-the words were written for stops it: words are written after looking at the figures, not carried
-along.
+The table of verdicts goes into ``docs/reproduction.md``, how many claims have which verdict also
+into the sentences of ``COUNTED``; what was measured goes into ``docs/reproduction/claims.md``,
+which is written as a whole. The words are in ``reasons.toml``. A claim without an entry there, an
+entry without a claim, or another verdict than the words were written for stops it: words are
+written after looking at the figures, not carried along.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import re
 import sys
 import tomllib
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -26,6 +26,8 @@ from research.docs.put_table import put
 PAGE: Final = DOCS / "reproduction.md"
 DETAILS: Final = DOCS / "reproduction" / "claims.md"
 REASONS: Final = Path(__file__).with_name("reasons.toml")
+COUNTED: Final = (DOCS.parent / "README.md", DOCS / "index.md", DOCS / "limits.md")
+"""Pages with a sentence that counts the verdicts, as ``sentence`` makes it."""
 YES: Final = "reproduced"
 VERDICTS: Final = (YES, "partly", "not", "no verdict")
 
@@ -103,6 +105,28 @@ def counts(found: Sequence[Verdict]) -> str:
     ))  # fmt: skip
 
 
+def sentence(found: Iterable[str]) -> str:
+    """How many claims have which verdict, of the verdict on each, for the middle of a sentence."""
+    count = Counter(found)
+    return (
+        f"{count.total()} claims that a simulation can check: {count[YES]} reproduced, "
+        f"{count['partly']} partly, {count['not']} not, {count['no verdict']} without a verdict"
+    )
+
+
+def put_sentence(page: str, text: str) -> str:
+    """The page with its sentence that counts the verdicts replaced.
+
+    Raises:
+        ValueError: the page does not have it once.
+    """
+    pattern = re.sub(r"\d+", r"\\d+", text)
+    changed, times = re.subn(pattern, text, page)
+    if times != 1:
+        raise ValueError(f"the sentence '{text}' is there {times} times")
+    return changed
+
+
 FOLDED: Final = '<details markdown="1">\n<summary>What was measured</summary>\n\n'
 """Begin of a part of a page that a click unfolds."""
 
@@ -139,10 +163,14 @@ def main(paths: Sequence[Path]) -> None:
         found = verdicts("\n".join(path.read_text("utf-8") for path in paths), reasons)
         page = put(PAGE.read_text("utf-8"), "verdict-counts", counts(found))
         page = put(page, "claims", table(found))
+        told = sentence(each.verdict for each in found)
+        counted = {path: put_sentence(path.read_text("utf-8"), told) for path in COUNTED}
     except ValueError as error:
         sys.exit(str(error))
     PAGE.write_text(page, encoding="utf-8")
     DETAILS.write_text(details(found), encoding="utf-8")
+    for path, text in counted.items():
+        path.write_text(text, encoding="utf-8")
     robots = {robot for path in paths for robot in robots_in(path.with_name("trials.csv"))}
     note(robots, "verdict-counts", "claims", DETAILS)
 

@@ -9,7 +9,16 @@ from pathlib import Path
 import pytest
 
 from research.docs import reproduction
-from research.docs.reproduction import VERDICTS, counts, details, measured, table, verdicts
+from research.docs.reproduction import (
+    VERDICTS,
+    counts,
+    details,
+    measured,
+    put_sentence,
+    sentence,
+    table,
+    verdicts,
+)
 
 CLAIMS = """- commit: abc
 
@@ -72,3 +81,14 @@ def test_the_pages_show_the_words_of_the_file() -> None:
     count = [sum(e["verdict"] == verdict for e in words) for verdict in VERDICTS]
     assert f"| {' | '.join(map(str, [*count, len(words)]))} |" in page
     assert reproduction.DETAILS.read_text("utf-8").count('<a id="claim-') == len(words)
+    for counted in reproduction.COUNTED:
+        assert sentence(e["verdict"] for e in words) in counted.read_text("utf-8")
+
+
+def test_the_sentence_that_counts_is_put_once() -> None:
+    text = sentence(["partly", "reproduced", "partly", "not"])
+    assert text.endswith("check: 1 reproduced, 2 partly, 1 not, 0 without a verdict")
+    page = f"It makes {sentence(['not'] * 12)} (here)."
+    assert put_sentence(page, text) == f"It makes {text} (here)."
+    with pytest.raises(ValueError, match="is there 2 times"):
+        put_sentence(page + page, text)
