@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -99,9 +100,9 @@ def build(
     from apnc.loop.gait import read_gait
     from apnc.loop.parameters import read_parameters
     from apnc_core.settings import parse
-    from build_fmu.build import cached_fmu
-    from build_fmu.compile import INSTALL_COMPILER
-    from build_fmu.options import BuildOptions
+    from build_fmu.build import cached_fmu, finished_fmu
+    from build_fmu.compile import INSTALL_COMPILER, compiler_version
+    from build_fmu.options import BuildOptions, host_platform
     from build_fmu.release import release as build_release
     from build_fmu.writing import write_atomically
 
@@ -133,18 +134,33 @@ def build(
             reals=reals,
         )
         writable(output, file=True)
+        wished = ""
         if platform is None and (own := _without_compiler(options)):
             options, came_with_the_package = own, True
+        elif (robot, setting, params, gait, controller) == (None,) * 5 and settings:
+            # the ready FMU of these legs has the defaults, and a robot has start values of its own
+            plain = replace(options, settings={}, platforms=(host_platform(),))
+            if platform is None and not compiler_version() and finished_fmu(plain):
+                options, came_with_the_package, wished = plain, True, _told(settings)
         path = cached_fmu(options, compiling(shown, len(options.platforms)))
         write_atomically(output, path.read_bytes())
     say(f"{output}: {output.stat().st_size / 1000:.0f} kB, {', '.join(options.platforms)}")
     if robot and (words := _mi_of(robot)):
         say(words)
+    if wished:
+        say(
+            "Its start values are the defaults, Lilibot's. "
+            f"The shipped robot of {legs} legs walks with {wished}"
+        )
     if came_with_the_package:
         say(
             "It came with the package, for this machine. "
             f"Other platforms, legs and start values need the C compiler: {INSTALL_COMPILER}"
         )
+
+
+def _told(settings: Mapping[str, SettingLike]) -> str:
+    return ", ".join(f"{name}={value:.4g}" for name, value in sorted(settings.items()))
 
 
 def _without_compiler(options: BuildOptions) -> BuildOptions | None:

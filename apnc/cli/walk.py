@@ -7,6 +7,7 @@ import importlib.util
 import math
 from collections.abc import Mapping
 from dataclasses import fields, replace
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
@@ -156,7 +157,13 @@ def walk(
         str | None,
         Option(help="FMU file in place of the built one. Its start values hold unless set here."),
     ] = None,
-    output: Annotated[Path, Option(help="Folder for the results.")] = Path("apnc-walk"),
+    output: Annotated[
+        Path | None,
+        Option(
+            help="Folder for the results; a walk in it is replaced. Default: apnc-walk, or "
+            "apnc-walk-2 and so on where a walk is already."
+        ),
+    ] = None,
     json_file: Annotated[
         Path | None, file_option("File to write the summary to as well.", "--json")
     ] = None,
@@ -190,6 +197,7 @@ def walk(
     diverged.
     """
     with status("starting"):
+        output = output or _free_folder()
         read = given(robot=robot, params=params, gait=gait, fmu=fmu)
         written = {"--output": [output / name for name in RUN_FILES]}
         apart({"--json": json_file, "--mcap": mcap, "--video": video}, read | written)
@@ -244,6 +252,19 @@ def walk(
     if not record.complete:
         say(words, error=True)
         raise typer.Exit(ENDED_EARLY)
+
+
+OWN_FOLDER: Final = "apnc-walk"
+
+
+def _free_folder() -> Path:
+    """The first of apnc-walk, apnc-walk-2 ... that holds no walk."""
+    names = (OWN_FOLDER if n == 1 else f"{OWN_FOLDER}-{n}" for n in count(1))
+    return next(
+        folder
+        for folder in map(Path, names)
+        if not any((folder / name).exists() for name in RUN_FILES)
+    )
 
 
 def _log_path(mcap: Path) -> Path:

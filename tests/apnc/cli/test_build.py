@@ -40,6 +40,22 @@ def test_without_the_compiler_it_hands_out_what_came_with_the_package(
     assert second.endswith("need the C compiler: pip install ziglang")
 
 
+@pytest.mark.parametrize(("legs", "says"), [(6, "B_f=0.837"), (8, "robot_weight=46.11")])
+def test_of_six_and_eight_legs_it_says_whose_start_values_came_with_the_package(
+    legs: int, says: str, came: bytes, capsys: pytest.CaptureFixture[str]
+) -> None:
+    options = BuildOptions(legs=legs, platforms=(host_platform(),))
+    ready = Path(f"{build.build_key(options)}.fmu")  # in READY
+    assert run(capsys, "build", "--legs", str(legs))[0] == 2
+    ready.write_bytes(came)
+    code, out, err = run(capsys, "build", "--legs", str(legs))
+    assert (code, err, Path("Apnc.fmu").read_bytes()) == (0, "", came)
+    _, second, _ = out.splitlines()
+    assert second.startswith("Its start values are the defaults, Lilibot's") and says in second
+    for more in (("--set", "xi=0.03"), ("--fmi", "3"), ("--robot", "hexapod"), ("--reals",)):
+        assert run(capsys, "build", "--legs", str(legs), *more)[0] == 2
+
+
 @pytest.mark.parametrize(
     "words",
     [

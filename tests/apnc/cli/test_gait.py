@@ -22,7 +22,7 @@ def test_a_gait_is_kept_shown_and_walked_with(
     assert "LH 0.10 rad" in run(capsys, "gait", "show", "gait.json")[1]
     assert run(capsys, "gait", "save", "first", "gait.ssv", "--format", "ssv")[0] == 0
     for option, file in (("--gait", "gait.json"), ("--params", "gait.ssv")):
-        assert run(capsys, "walk", option, file, "--duration", "1")[0] == 0
-        again = json.loads(Path("apnc-walk/summary.json").read_text())
+        assert run(capsys, "walk", option, file, "--duration", "1", "--output", "again")[0] == 0
+        again = json.loads(Path("again/summary.json").read_text())
         assert again["parameters"]["phi_stored"] == [3.1, 3.2, 0.1]
         assert again["parameters"]["stored"] is True

@@ -93,6 +93,21 @@ def test_a_step_that_is_too_long_is_refused_in_one_line(
     assert not list(tmp_path.iterdir())
 
 
+def test_a_walk_without_an_output_replaces_none(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "apnc-walk").mkdir()  # an empty folder is no walk
+    words = ("walk", "--duration", "0.5")
+    for folder in ("apnc-walk", "apnc-walk-2", "apnc-walk-3"):
+        assert run(capsys, *words)[1].splitlines()[-1] == f"report: {folder}/report.html"
+    first = (tmp_path / "apnc-walk" / "summary.json").read_bytes()
+    assert run(capsys, *words, "--output", "apnc-walk-2", "--mi", "0.2")[0] == 0
+    assert (tmp_path / "apnc-walk" / "summary.json").read_bytes() == first
+    assert '"mi": 0.2' in (tmp_path / "apnc-walk-2" / "summary.json").read_text()
+    assert len(list(tmp_path.iterdir())) == 3
+
+
 def test_a_full_disk_names_the_file_and_leaves_the_older_run(tmp_path: Path) -> None:
     assert apnc("walk", "--duration", "1", cwd=tmp_path).returncode == 0
     folder = tmp_path / "apnc-walk"
@@ -102,7 +117,7 @@ def test_a_full_disk_names_the_file_and_leaves_the_older_run(tmp_path: Path) -> 
         resource.setrlimit(resource.RLIMIT_FSIZE, (600_000, 600_000))
 
     done = subprocess.run(
-        [*APNC, "walk", "--duration", "25"],
+        [*APNC, "walk", "--duration", "25", "--output", "apnc-walk"],
         cwd=tmp_path, capture_output=True, text=True, check=False, preexec_fn=little_room,
     )  # fmt: skip
     assert done.returncode == 2
