@@ -18,7 +18,7 @@ from apnc import metrics
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.studies.claims import FEW, Claim, Judgement, verdict
-from apnc.studies.results import STRICT, Result, is_number, values
+from apnc.studies.results import STRICT, Result, values
 from apnc.studies.study import WALK_S, Study
 from apnc_core.types import Array
 from apnc_plant.compiled import CompiledPlant
@@ -75,7 +75,7 @@ def in_phase(results: Sequence[Result]) -> Judgement:
 
 def _together(result: Result) -> bool:
     apart = result.get(APART)
-    in_phase = is_number(apart) and apart <= metrics.STRICT_TOLERANCE
+    in_phase = apart is not None and apart <= metrics.STRICT_TOLERANCE
     return in_phase and result[STORED] == 0.0 and result[STRICT] is None
 
 

@@ -6,20 +6,37 @@ from __future__ import annotations
 import inspect
 import os
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 from typer import Option
 
 import apnc
 from apnc.cli.completion import Completion, axis_of, robots
-from apnc.cli.console import bar, say_file, writable
+from apnc.cli.console import bar, say, say_file, writable
 from apnc.cli.interrupt import STOP, Interrupted
-from apnc.studies.registry import ALL, CONTROLLERS_OPTION, ROBOT, STUDIES, Entry, Registry
+from apnc.studies.registry import (
+    ALL,
+    CONTROLLERS_OPTION,
+    MIN_SEEDS,
+    ROBOT,
+    STUDIES,
+    Entry,
+    Registry,
+    names_of,
+)
+
+if TYPE_CHECKING:
+    from apnc.studies.results import Result
 
 _ABOUT: Final = {ROBOT: "Robot name or TOML file. Default: that of the study."}
+
+_TRIALS: Final = (
+    f"Number of seeds per cell of the grid. A claim needs {MIN_SEEDS} of each controller for a "
+    "verdict; most baselines walk half of the seeds."
+)
 
 _ENDED: Final = {"error": "ended with an error"}
 _BY_NAME: Final = inspect.Parameter.KEYWORD_ONLY
@@ -56,7 +73,7 @@ def command_of(
         return inspect.Parameter(option, _BY_NAME, default=default, annotation=form)
 
     parameters = [
-        option("trials", int, 20, "Number of seeds per cell of the grid."),
+        option("trials", int, 20, _TRIALS),
         option(
             "duration",
             float | None,
@@ -106,9 +123,31 @@ def _run(
     ends = Counter(row["end"] for row in rows)
     counts = "".join(f", {count} {_ENDED.get(end, end)}" for end, count in sorted(ends.items()))
     say_file(f"{len(rows)} trials{counts}; report", output / "report.html")
+    if few := without_verdict(name, rows, options["studies"]):
+        say(few)
     if STOP.asked:
         raise Interrupted("interrupted; --resume finishes it")
     raise typer.Exit(TRIAL_FAILED if ends["error"] else 0)
+
+
+def without_verdict(name: str, results: Sequence[Result], studies: Registry) -> str:
+    """A line on controllers with too few seeds for a verdict on a claim; empty if none has."""
+    from apnc.studies.study import load  # noqa: PLC0415
+
+    seeds: dict[tuple[str, str], set[int]] = {}
+    for result in results:
+        seeds.setdefault((result["study"], result["controller"]), set()).add(result["seed"])
+    few = [
+        controller
+        for each in names_of(name, studies)
+        for claim in load(studies[each]).claims
+        for controller in claim.controllers
+        if 0 < len(seeds.get((each, controller), ())) < claim.seeds
+    ]
+    if not few:
+        return ""
+    names = ", ".join(dict.fromkeys(few))
+    return f"no verdict on claims about {names}: fewer than {MIN_SEEDS} seeds; raise --trials"
 
 
 def about(entry: Entry) -> str:

@@ -39,8 +39,10 @@ class Verdict:
 
 
 def heading(experiment: Experiment) -> str:
-    """What of an experiment is not default, in a line."""
+    """Robot, MI, and what else of an experiment is not default, in a line."""
     changed = {**experiment.changed()}
+    changed = {"robot": experiment.description.name, "mi": experiment.mi} | changed
+    changed["robot"] = experiment.description.name
     settings = changed.pop("settings", {})
     pushes = len(changed.pop("pushes", ()))
     pushed = [f"pushed {pushes} times" if pushes > 1 else "pushed once"] if pushes else []
@@ -50,7 +52,7 @@ def heading(experiment: Experiment) -> str:
         else f"{'MI' if name == 'mi' else name} {_plain(value)}{_UNITS.get(name, '')}"
         for name, value in changed.items()
     ]
-    return ", ".join([*words, *_settings(settings), *pushed]) or "all as by default"
+    return ", ".join([*words, *_settings(settings), *pushed])
 
 
 def facts(record: Record) -> list[tuple[str, str]]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
 from apnc.controllers import named_controller
+from apnc.studies.registry import MIN_SEEDS
 from apnc.studies.results import (
     AUTHORS,
     STRICT,
@@ -27,9 +28,6 @@ from apnc.studies.statistics import (
 
 YES, PARTLY, NO = "reproduced", "partly", "not"
 FEW, NOT_RUN = "no verdict", "not run"
-
-MIN_SEEDS: Final = 5
-"""Smallest number of seeds, and of numbers on each side of a comparison, for a verdict."""
 
 SIGNIFICANT: Final = 0.05
 """Largest p of a difference that is significant."""

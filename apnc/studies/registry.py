@@ -11,6 +11,9 @@ ALL: Final = "all"
 CONTROLLERS_OPTION: Final = "controllers"
 """Option of studies that compare controllers."""
 
+MIN_SEEDS: Final = 5
+"""Smallest number of seeds, and of numbers on each side of a comparison, for a verdict."""
+
 ROBOT: Final = "robot"
 """Option of studies that any robot can walk."""
 

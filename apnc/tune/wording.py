@@ -12,7 +12,7 @@ from apnc.tune.aims import AIM_ALONE
 from apnc.tune.runs import MARGIN
 from apnc.tune.tuned_file import changes
 from apnc.tune.tuning import Tuned
-from apnc.tune.validation import AIMS, Validation, in_words, percent
+from apnc.tune.validation import AIMS, Cell, Validation, in_words, percent
 from apnc_core.variables import variable_named
 
 COLUMNS: Final = (
@@ -65,12 +65,21 @@ def table(found: Validation) -> list[tuple[str, ...]]:
             f"{walk.mi:.3g}",
             *(str(cell.good) for cell in (walk, alone, varied)),
             f"{walk.time * found.time:.1f}" if walk.strict else "–",
-            f"{walk.middle('speed') * found.speed:.3f}",
-            f"{1e3 * walk.middle('lift') * found.length:.1f}",
-            f"{100.0 * walk.middle('slip'):.0f}",
+            *_medians(walk, found),
         )
         for walk, alone, varied in cells
     ]
+
+
+def _medians(walk: Cell, found: Validation) -> tuple[str, str, str]:
+    """Speed, lift and slip; where most robots fell there is nothing to measure."""
+    if walk.middle("fell") < 1.0:
+        return "fell", "–", "–"
+    return (
+        f"{walk.middle('speed') * found.speed:.3f}",
+        f"{1e3 * walk.middle('lift') * found.length:.1f}",
+        f"{100.0 * walk.middle('slip'):.0f}",
+    )
 
 
 def others(found: Validation) -> list[str]:

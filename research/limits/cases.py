@@ -11,7 +11,7 @@ from apnc.studies.robots import changed
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Kerb, Obstacles, Plane, Waves
 from apnc_plant.robot import RobotDescription
-from apnc_plant.robot.size import mean_leg_length
+from apnc_plant.robot.size import mean_leg_length, times_longer
 
 Fields = Mapping[str, Any]
 """Fields of an experiment by name."""
@@ -56,7 +56,7 @@ def _waves(robot: RobotDescription, percent: float, seed: int) -> Fields:
 
 
 def _obstacles(robot: RobotDescription, roughness: float, seed: int) -> Fields:
-    return {"ground": Obstacles(roughness=roughness, seed=seed)}
+    return {"ground": Obstacles(roughness=roughness, seed=seed, scale=times_longer(robot))}
 
 
 def _payload(robot: RobotDescription, percent: float, seed: int) -> Fields:

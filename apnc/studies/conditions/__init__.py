@@ -9,9 +9,9 @@ from typing import Any, Final, NamedTuple
 from apnc.controllers import ALL, named_controller
 from apnc.loop.experiment import Experiment
 from apnc.report.figure import Figure
-from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Judgement, Rule, verdict
+from apnc.studies.claims import FEW, SIGNIFICANT, Claim, Judgement, Rule, verdict
 from apnc.studies.plots import over_axis
-from apnc.studies.registry import STUDIES
+from apnc.studies.registry import MIN_SEEDS, STUDIES
 from apnc.studies.results import Result, cells_in, controllers_in, matching, values
 from apnc.studies.statistics import Comparison, compare, holm, of_runs, p_text
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others

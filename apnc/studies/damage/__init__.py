@@ -9,9 +9,9 @@ from typing import Final
 from apnc.controllers import ALL, BASELINES, named_controller
 from apnc.loop.experiment import Experiment
 from apnc.report.figure import Figure
-from apnc.studies.claims import FEW, MIN_SEEDS, SIGNIFICANT, Claim, Judgement, verdict
+from apnc.studies.claims import FEW, SIGNIFICANT, Claim, Judgement, verdict
 from apnc.studies.plots import LOOKS, counted, side_by_side
-from apnc.studies.registry import STUDIES
+from apnc.studies.registry import MIN_SEEDS, STUDIES
 from apnc.studies.results import SPEED, Result, controllers_in, matching, values
 from apnc.studies.statistics import compare, holm, median, p_text
 from apnc.studies.study import SCHEDULE_MI, WALK_S, Study, fewer_of_others

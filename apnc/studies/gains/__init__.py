@@ -18,7 +18,6 @@ from apnc.loop.record import Record
 from apnc.report.figure import Figure
 from apnc.studies.claims import (
     FEW,
-    MIN_SEEDS,
     SIGNIFICANT,
     Claim,
     Judgement,
@@ -27,7 +26,7 @@ from apnc.studies.claims import (
     verdict,
 )
 from apnc.studies.plots import convergence
-from apnc.studies.registry import STUDIES
+from apnc.studies.registry import MIN_SEEDS, STUDIES
 from apnc.studies.results import (
     AUTHORS,
     STRICT,

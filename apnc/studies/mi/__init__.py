@@ -16,7 +16,6 @@ from apnc.loop.experiment import Experiment
 from apnc.loop.record import Record
 from apnc.studies.claims import (
     FEW,
-    MIN_SEEDS,
     Claim,
     Judgement,
     Rule,
@@ -26,7 +25,7 @@ from apnc.studies.claims import (
     verdict,
 )
 from apnc.studies.plots import convergence, over_axis
-from apnc.studies.registry import STUDIES
+from apnc.studies.registry import MIN_SEEDS, STUDIES
 from apnc.studies.results import (
     AUTHORS,
     SPEED,

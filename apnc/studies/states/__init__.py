@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Final
 
 from apnc.controllers import BASELINES, named_controller
-from apnc.studies.claims import FEW, MIN_SEEDS, Claim, Judgement, Rule, of_decided, verdict
-from apnc.studies.registry import STUDIES
+from apnc.studies.claims import FEW, Claim, Judgement, Rule, of_decided, verdict
+from apnc.studies.registry import MIN_SEEDS, STUDIES
 from apnc.studies.results import Result, controllers_in, gait_in, is_number, matching, values
 from apnc.studies.states.figures import COUPLINGS, STATES, figures, scenes
 from apnc.studies.states.measure import measure
@@ -66,6 +66,8 @@ def without_gait(name: str) -> Rule:
             hits = rate([bool(result.get(f"state_{name}")) for result in runs])
             speed = median(values(runs, f"state_speed_{name.lower()}"))
             text = f"{gait_in(results)} in {hits}, speed {speed.text(3, 'm/s', len(runs))}"
+            if hits.trials == 0:
+                return Judgement(f"no run had the {gait_in(results)} before", FEW)
             if hits.trials < MIN_SEEDS:
                 return Judgement(text, FEW)
             return Judgement(text, verdict(hits.successes == 0, hits.value < 0.5))

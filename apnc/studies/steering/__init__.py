@@ -11,8 +11,8 @@ import numpy as np
 from apnc import metrics
 from apnc.loop.record import Record
 from apnc.loop.schedule import steps_of
-from apnc.studies.claims import FEW, MIN_SEEDS, NO, PARTLY, YES, Claim, Judgement, ranks, verdict
-from apnc.studies.registry import STUDIES
+from apnc.studies.claims import FEW, NO, PARTLY, YES, Claim, Judgement, ranks, verdict
+from apnc.studies.registry import MIN_SEEDS, STUDIES
 from apnc.studies.results import Result, cells_in, matching, values
 from apnc.studies.statistics import median
 from apnc.studies.steering.figures import figures, scenes

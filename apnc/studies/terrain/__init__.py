@@ -12,7 +12,6 @@ from apnc.controllers import ALL, PHASE_RESET, TEGOTAE
 from apnc.loop.experiment import Experiment
 from apnc.studies.claims import (
     FEW,
-    MIN_SEEDS,
     SIGNIFICANT,
     Claim,
     Judgement,
@@ -24,7 +23,7 @@ from apnc.studies.claims import (
     verdict,
 )
 from apnc.studies.plots import convergence
-from apnc.studies.registry import STUDIES
+from apnc.studies.registry import MIN_SEEDS, STUDIES
 from apnc.studies.results import Result, successes, values
 from apnc.studies.statistics import compare_rates, compare_spread, p_text, rate
 from apnc.studies.study import WALK_MI, WALK_S, Study, fewer_of_others

@@ -44,7 +44,9 @@ def test_a_study_is_written_and_resumed(
     more = ("--trials", "1", "--workers", "1", "--series")
     code, out, err = run(capsys, *words, *more)
     assert code == 0, err
-    assert out == "2 trials, 2 complete; report: apnc-study-mi/report.html\n"
+    first, second = out.splitlines()
+    assert first == "2 trials, 2 complete; report: apnc-study-mi/report.html"
+    assert second == "no verdict on claims about apnc: fewer than 5 seeds; raise --trials"
     folder = tmp_path / "apnc-study-mi"
     rows = [json.loads(line) for line in (folder / "trials.jsonl").read_text().splitlines()]
     assert sorted((row["mi"], row["duration"], row["controller"]) for row in rows) == [
@@ -62,10 +64,13 @@ def test_a_trial_that_ends_with_an_error_has_its_code(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ends = ["complete", "fell", "error", "fell", "diverged"]
-    rows = [{"end": end} for end in ends]
+    rows = [
+        {"end": end, "study": "rate", "controller": "apnc", "seed": n} for n, end in enumerate(ends)
+    ]
     monkeypatch.setattr("apnc.studies.runner.run_study", lambda *_, **__: rows)
     code, out, _ = run(capsys, "study", "rate", "--output", str(tmp_path))
     assert code == 1
     assert out.startswith(
         "5 trials, 1 complete, 1 diverged, 1 ended with an error, 2 fell; report: "
     )
+    assert "no verdict" not in out  # five seeds

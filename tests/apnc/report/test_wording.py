@@ -208,8 +208,8 @@ def test_target_gait_has_its_name() -> None:
     assert "Tripod, strict" in [name for name, _, _ in rows(six)]
 
 
-def test_heading_says_what_is_not_default() -> None:
-    assert heading(Experiment()) == "all as by default"
+def test_heading_says_robot_and_mi_and_what_is_not_default() -> None:
+    assert heading(Experiment()) == "lilibot, MI 0.08"
     experiment = Experiment(
         robot="hexapod",
         preset="paper",
@@ -224,7 +224,7 @@ def test_heading_says_what_is_not_default() -> None:
     )
     assert heading(experiment) == expected
     damaged = Conditions(damaged=("RF",), payload=0.5)
-    assert heading(Experiment(conditions=damaged)) == "payload 0.5, damaged RF"
+    assert heading(Experiment(conditions=damaged)) == "lilibot, MI 0.08, payload 0.5, damaged RF"
 
 
 def test_facts_name_robot_preset_condition_ground_parameters_and_memory() -> None:

@@ -672,6 +672,8 @@ def test_the_other_figures_are_told() -> None:
     assert measured(states.state("S3", "apc"), results) == "0/10 (0 ... 31 %), speed -, n = 0 of 10"
     text = measured(states.without_gait("S2"), kept("S2", formed=8, tegotae=2, phase_reset=0))
     assert text.startswith("Tegotae: gait in 2/8 (3 ... 65 %), speed -, n = 0 of 8; ")
+    text = measured(states.without_gait("S2"), kept("S2", formed=0, tegotae=0, phase_reset=0))
+    assert text.startswith("Tegotae: no run had the gait before; ")
     assert measured(states.gamma_by_itself, gammas(0.95)) == (
         "imposed in APNC by feedback_kept; APNC: 0.300 to 0.060, n = 6; "
         "APNC, feedback kept: 0.300 to 0.285, n = 6, ratio 0.95 (0.95 ... 0.95)"

@@ -13,7 +13,7 @@ from apnc.studies.runner import grid_of
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Kerb, Obstacles, Plane, Waves
 from apnc_plant.robot import load_robot
-from apnc_plant.robot.size import mean_leg_length
+from apnc_plant.robot.size import mean_leg_length, times_longer
 from research import limits
 from research.limits.cases import AS_IT_IS, CASES, LIMITS
 from research.registry import STUDIES
@@ -38,7 +38,9 @@ def test_a_case_changes_what_it_says_in_units_of_the_robot() -> None:
 
     assert own.ground == Plane() and own.conditions == "C1" and own.rate == 60.0
     assert of("slope down 10 deg").ground == Plane(slope=-math.radians(10.0))
-    assert of("obstacles 0.8 R").ground == Obstacles(roughness=0.8, seed=3)
+    assert of("obstacles 0.8 R").ground == Obstacles(
+        roughness=0.8, seed=3, scale=times_longer(robot)
+    )
     assert of("kerb 10 % of the leg").ground == Kerb(at=0.5, height=0.1 * leg)
     assert of("waves 10 % of the leg").ground == Waves(amplitude=0.1 * leg, wavelength=3.0 * leg)
     assert of("payload 50 % of the mass").conditions == Conditions(payload=0.5 * robot.mass)
