@@ -165,7 +165,7 @@ def checked_name(name: str) -> str:
         ValueError: an unknown name.
     """
     if name not in CONDITIONS:
-        raise ValueError(f"conditions {name!r} are not one of {', '.join(CONDITIONS)}")
+        raise ValueError(f"{name!r} is not one of {', '.join(CONDITIONS)}")
     return name
 
 

@@ -28,6 +28,19 @@ LONGEST: Final = 200
 _UNKNOWN_KEY: Final = ("unexpected_keyword_argument", "extra_forbidden")
 
 
+class KeyRefusedError(ValueError):
+    """A value that does not fit to others of its table; a message then names where it is written.
+
+    Args:
+        key: its key in the table.
+        words: what is wrong with it, and what is allowed.
+    """
+
+    def __init__(self, key: str, words: str) -> None:
+        super().__init__(words)
+        self.key = key
+
+
 def limits(unit: str = "", allowed: str = "", **constraints: Any) -> Any:
     """Constraints of a field, and what a message says about them.
 
@@ -156,11 +169,15 @@ def error_line(
     location, kind = found["loc"], found["type"]
     if kind == "missing" and location and isinstance(location[-1], int):
         location, kind = location[:-1], "too_short"  # a tuple that ends early
+    own = found["ctx"]["error"] if kind == "value_error" else None
+    shown = shown_as(location)
+    if isinstance(own, KeyRefusedError):
+        shown = shown_as((*location, own.key))[:-1]
     name = ""
-    for key in shown_as(location):
+    for key in shown:
         name += f"[{key + 1}]" if isinstance(key, int) else f".{key}" if name else key
-    if kind == "value_error":  # raised by a check of our own, whose text says what is allowed
-        return ": ".join(filter(None, (name, str(found["ctx"]["error"]))))
+    if own is not None:  # raised by a check of our own, whose text says what is allowed
+        return ": ".join(filter(None, (name, str(own))))
     value = "missing" if kind == "missing" else repr(found["input"])
     if len(value) > LONGEST:
         value = f"{value[:LONGEST]} ..."

@@ -24,6 +24,7 @@ from apnc.importing.xml_file import read_xml
 from apnc_core.interface import Parameters
 from apnc_core.types import Array
 from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.robot.quantities import LONGEST
 
 ZERO: Final = "zero"
 """Pose of every file: all joints at 0."""
@@ -93,6 +94,12 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
             )
     limbs = limbs_of(model, angles)
     legs = _ordered([leg_geometry(leg) for leg in limbs.legs])
+    longest = max(max(leg.femur, leg.tibia) for leg in legs)
+    if longest > LONGEST:
+        raise ModelFileError(
+            f"a femur or tibia is {longest:.3g} m long; allowed: up to {LONGEST:g} m, and lengths "
+            "of the file are in m, not in mm"
+        )
     names = _names(legs)
     default = Parameters()
     swing = Swing(default.a1, default.a2)

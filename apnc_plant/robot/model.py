@@ -14,7 +14,7 @@ from pydantic import AfterValidator
 from apnc_core import settings
 from apnc_core.frozen import Frozen
 from apnc_core.variables import variable_named
-from apnc_plant.files import Number, checked, limits
+from apnc_plant.files import KeyRefusedError, Number, checked, limits
 from apnc_plant.robot.body import Body, MassProperties, Trunk
 from apnc_plant.robot.joint_map import JointMap
 from apnc_plant.robot.quantities import (
@@ -132,33 +132,40 @@ class Leg:
     def __post_init__(self) -> None:
         if self.chain not in CHAINS:
             known = " or ".join(str(list(chain)) for chain in CHAINS)
-            raise ValueError(f"chain is {list(self.chain)}; allowed: {known}")
+            raise KeyRefusedError("chain", f"chain is {list(self.chain)}; allowed: {known}")
         unknown = "abduction_angle" if self.has_coxa else "pointing"
         if getattr(self, unknown) != 0.0:
-            raise ValueError(
+            raise KeyRefusedError(
+                unknown,
                 f"{unknown} is {math.degrees(getattr(self, unknown)):.4g} deg and chain is "
-                f"{list(self.chain)}; allowed with it: 0"
+                f"{list(self.chain)}; allowed with it: 0",
             )
         if self.has_coxa and self.abduction_range is not None:
-            raise ValueError(
-                f"abduction_range is given and chain is {list(self.chain)}; allowed with it: none"
+            raise KeyRefusedError(
+                "abduction_range",
+                f"abduction_range is given and chain is {list(self.chain)}; allowed with it: none",
             )
         if (self.tibia_angle > 0.0) if self.knee == ">" else (self.tibia_angle < 0.0):
-            allowed = "0 and less" if self.knee == ">" else "0 and more, or the other knee"
-            raise ValueError(
+            sign, other = ("less", "<") if self.knee == ">" else ("more", ">")
+            raise KeyRefusedError(
+                "tibia_angle",
                 f"knee is {self.knee!r} and tibia_angle is "
-                f"{math.degrees(self.tibia_angle):.4g} deg; allowed with it: {allowed}"
+                f"{math.degrees(self.tibia_angle):.4g} deg; allowed with it: 0 and {sign}, "
+                f'or the line knee = "{other}"',
             )
         for key, stops, angle in (
             ("abduction_range", self.abduction_range, self.abduction_angle),
             ("femur_range", self.femur_range, self.femur_angle),
             ("tibia_range", self.tibia_range, self.tibia_angle),
         ):
-            if stops is not None and not stops[0] - AT_A_STOP <= angle <= stops[1] + AT_A_STOP:
-                low, high, at = (f"{math.degrees(each):.4g}" for each in (*stops, angle))
-                raise ValueError(
-                    f"{key} is {low} to {high} deg; allowed: around the reference pose, at {at}"
-                )
+            if stops is None or stops[0] - AT_A_STOP <= angle <= stops[1] + AT_A_STOP:
+                continue
+            low, high, at = (f"{math.degrees(each):.4g}" for each in (*stops, angle))
+            if stops[0] > stops[1]:
+                allowed = "the lower end, then the upper"
+            else:
+                allowed = f"around the reference pose, at {at}"
+            raise KeyRefusedError(key, f"{key} is {low} to {high} deg; allowed: {allowed}")
 
     @property
     def stops(self) -> tuple[tuple[float, float], ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 
 from pydantic import ValidationInfo, ValidatorFunctionWrapHandler, WrapValidator
 
@@ -23,8 +23,11 @@ def _angle(value: Any, check: ValidatorFunctionWrapHandler, info: ValidationInfo
     return float(value)
 
 
-Length = Annotated[Number, limits("m")]
-Edge = Annotated[Number, limits("m", gt=0.0)]
+LONGEST: Final = 10.0
+"""Largest length in a robot [m]: above that of any legged robot, below most lengths in mm."""
+
+Length = Annotated[Number, limits("m", ge=-LONGEST, le=LONGEST)]
+Edge = Annotated[Number, limits("m", gt=0.0, le=LONGEST)]
 Angle = Annotated[Number, limits("deg", ge=-180.0, le=180.0), WrapValidator(_angle)]
 Turns = Annotated[Number, limits("deg", ge=-360.0, le=360.0), WrapValidator(_angle)]
 Range = tuple[Turns, Turns]

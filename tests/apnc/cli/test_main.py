@@ -64,7 +64,7 @@ def test_no_command_shows_the_help() -> None:
         (["walk", "--set", "N=3.7"], "N = 3.7; allowed: a whole number"),
         (["walk", "--set", "kappa_rule=never"], "kappa_rule = 'never' is not one of armed"),
         (["walk", "--robot", "cow"], "robot 'cow'"),
-        (["walk", "--condition", "C9"], "conditions 'C9' are not one of"),
+        (["walk", "--condition", "C9"], "conditions: 'C9' is not one of C1, C2"),
         (["walk", "--fmu", "no.fmu"], "no.fmu: no such file"),
         (["walk", "--fmu", "text.fmu"], "text.fmu: not an FMU"),
         (["walk", "--gait", "text.fmu"], "gait file text.fmu: not readable as JSON"),

@@ -26,7 +26,7 @@ def values(file: Path) -> dict[str, str]:
         (["build-system", "--output", "x.fmu"], "x.fmu does not end in .ssp"),
         (["build-system", "--naming", "cow"], "naming 'cow' is not one of structured"),
         (["build-system", "--gait", "no.json"], "no.json: cannot be read"),
-        (["build-system", "--condition", "C9"], "conditions 'C9' are not one of"),
+        (["build-system", "--condition", "C9"], "conditions: 'C9' is not one of C1, C2"),
         (["build-system", "--payload", "-1"], "payload is -1.0; allowed:"),
         (["build-system", "--set", "servo.damping=x"], "servo.damping = 'x'; allowed: a number"),
         (["build-system", "--set", "servo.cow=1"], "parameter 'servo.cow' is not one of"),

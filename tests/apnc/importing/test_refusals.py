@@ -134,6 +134,14 @@ REFUSED: dict[str, tuple[Callable[[], str], str]] = {
         lambda: Dog(axes=("1 0 0", "0 0.5 0.8660254037844386")).text(),
         r"joint \w+_haa would stand at -?1\.05 rad, where the hip axis is level; allowed: in its",
     ),
+    "millimetres": (
+        lambda: re.sub(
+            r'(?<=xyz=")([^"]*)',
+            lambda found: " ".join(str(1000.0 * float(word)) for word in found[0].split()),
+            Dog().text(),
+        ),
+        r"a femur or tibia is 2\d\d m long; allowed: up to 10 m, and lengths of the file are in m",
+    ),
     "inertia of no body": (
         lambda: edited('ixx="0.0006" ixy="0" ixz="0" iyy="0.0008" iyz="0" izz="0.0007"',
                        'ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"')

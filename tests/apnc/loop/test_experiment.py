@@ -49,7 +49,7 @@ from apnc_core.enumerations import Method
             "method = apc is not set here, but by controller",
         ),
         ({"settings": {"phi_stored": [1.0]}}, "phi_stored has 1 values; 4 legs take 3 or none"),
-        ({"conditions": "C9"}, "conditions 'C9' are not one of"),
+        ({"conditions": "C9"}, "conditions: 'C9' is not one of C1, C2"),
         ({"conditions": Conditions(damaged=("RM",))}, "leg 'RM' is not one of RF, RH, LF, LH"),
         ({"conditions": ((0, "C1"), (1, "C4"))}, "payload changes during the run: [0.0, 1.25] kg"),
         ({"robot": "cow"}, "robot 'cow' is unknown"),

@@ -130,11 +130,27 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
             "trunk.size[2] is 0.0; allowed: a",
         ),
         ("tibia_angle = 92.0", "tibia_angle = 920.0", "leg.tibia_angle is 920.0"),
-        ("tibia_angle = 92.0", "tibia_angle = -92.0", "knee is '<' and tibia_angle is -92 deg"),
+        (
+            "tibia_angle = 92.0",
+            "tibia_angle = -92.0",
+            "leg: knee is '<' and tibia_angle is -92 deg; allowed with it: 0 and more, or the line "
+            'knee = ">"',
+        ),
+        (
+            "femur_length = 0.070",
+            "femur_length = 70.0",
+            "leg.femur_length is 70.0; allowed: a finite number above 0 up to 10 [m]",
+        ),
+        (
+            "hip_offset = [0.0, 0.0, -0.03]",
+            "hip_offset = [0.0, 0.0, -30.0]",
+            "leg.hip_offset[3] is -30.0; allowed: a finite number from -10 to 10 [m]",
+        ),
         (
             "tibia_angle = 92.0",
             'tibia_angle = 92.0\nknee = ">"',
-            "knee is '>' and tibia_angle is 92 deg; allowed with it: 0 and less",
+            "leg: knee is '>' and tibia_angle is 92 deg; allowed with it: 0 and less, or the line "
+            'knee = "<"',
         ),
         (
             "tibia_angle = 92.0",
@@ -165,7 +181,17 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
         (
             "[leg]",
             "[leg]\nfemur_range = [50.0, 60.0]",
-            "legs[1]: femur_range is 50 to 60 deg; allowed: around the reference pose, at 43",
+            "leg: femur_range is 50 to 60 deg; allowed: around the reference pose, at 43",
+        ),
+        (
+            "[leg]",
+            "[leg]\nfemur_range = [60.0, 20.0]",
+            "leg: femur_range is 60 to 20 deg; allowed: the lower end, then the upper",
+        ),
+        (
+            'name = "RH"',
+            'name = "RH"\nfemur_range = [50.0, 60.0]',
+            "legs[2]: femur_range is 50 to 60 deg; allowed: around",
         ),
         (
             "[leg]",
@@ -185,7 +211,7 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
         (
             "mass = 1.3",
             "mass = 1.3\noutline = [0.2, 0.1, 0]",
-            "trunk.outline[3] is 0; allowed: a finite number above 0 [m]",
+            "trunk.outline[3] is 0; allowed: a finite number above 0 up to 10 [m]",
         ),
         (
             "tibia_angle = 92.0",
