@@ -36,8 +36,8 @@ USUAL_VELOCITY: Final = 20.0
 
 SHORTEST_RUN_UP: Final = 0.25
 """Time in which the torque limit brings a rotor alone to the no-load speed, as a share of
-Lilibot's, below which the rotor is a placeholder. Gears do not change this time; motors of real
-robots have 0.3 to 1."""
+Lilibot's, below which the rotor is a placeholder. Gears do not change this time; rotors of most
+files have 0.3 to 0.9."""
 
 Place = tuple[int, str]
 """Number of a leg, and name of its joint."""
