@@ -127,6 +127,8 @@ def read_gait(path: Path | str) -> Gait:
     Raises:
         GaitError: no file, a damaged or a foreign one.
     """
+    if Path(path).is_dir():
+        raise GaitError(f"{path} is a folder; apnc gait save {path} gait.json makes a gait file")
     try:
         found = checked_file(_GaitFile, path)
         return Gait(found.legs, found.phi)

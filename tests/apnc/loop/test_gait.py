@@ -151,3 +151,8 @@ def test_missing_file_is_named(tmp_path: Path) -> None:
 def test_unusable_relations_are_refused(phi: tuple[float, ...], words: str) -> None:
     with pytest.raises(GaitError, match=words):
         Gait(GAIT.legs, phi)
+
+
+def test_the_folder_of_a_walk_is_told_how_to_become_a_gait_file(tmp_path: Path) -> None:
+    with pytest.raises(GaitError, match=r"is a folder; apnc gait save .* gait\.json makes"):
+        read_gait(tmp_path)
