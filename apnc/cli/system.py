@@ -134,8 +134,17 @@ def build_system(
         experiment = experiment_of(words)
         if payload:
             named = named_conditions(condition, experiment.description)
+            if hint := payload_hint(payload, experiment.description.mass):
+                say(hint, error=True)
             loaded = replace(named, payload=named.payload + payload)
             experiment = replace(experiment, conditions=loaded)
         output = writable(output or Path(f"{system_name(robot)}.ssp"), file=True)
         folder = build(output, experiment, naming, platform_names(platform or ["host"]), numbers)
     say(f"{output}, and the same as a folder: {folder}/")
+
+
+def payload_hint(payload: float, mass: float) -> str:
+    """A line for a payload [kg] heavier than the robot's mass [kg], as a percentage reads."""
+    if payload <= mass:
+        return ""
+    return f"--payload {payload:g} is in kg: {payload / mass:.1f} times the robot's {mass:.2f} kg"

@@ -10,6 +10,7 @@ import pytest
 from lxml import etree
 
 from apnc.cli import main as command_line
+from apnc.cli.system import payload_hint
 from apnc.loop.gait import Gait, write_gait
 
 SSV = "{http://ssp-standard.org/SSP1/SystemStructureParameterValues}"
@@ -103,3 +104,8 @@ def test_the_commands_write_what_they_say(
               "condition": 6, "servo.stiffness": 20.0, "sensor.component": 2}  # fmt: skip
     assert {name: float(plant[name]) for name in wanted} == wanted
     assert "<BaseStepSize>0.02" in Path("Lilibot/OspSystemStructure.xml").read_text()
+
+
+def test_a_payload_heavier_than_the_robot_has_a_hint() -> None:
+    assert payload_hint(2.5, 2.5) == ""
+    assert payload_hint(50.0, 2.5) == "--payload 50 is in kg: 20.0 times the robot's 2.50 kg"
