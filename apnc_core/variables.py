@@ -124,22 +124,22 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "a2", "a_2", "slope of the motor neuron of the knee",
-        start=0.17, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
+        start=0.15, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
         source=_SEARCH,
     ),
     _parameter(
         "b1", "b_1", "offset of the motor neuron of the hip",
-        start=-0.43, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
+        start=-0.2, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
         equation="4", source=_SEARCH,
     ),
     _parameter(
         "b2", "b_2", "offset of the motor neuron of the knee",
-        start=0.18, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
+        start=-0.2, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
         equation="4", source=_SEARCH,
     ),
     _parameter(
         "turn_gain", "", "relative change of the amplitudes at full steering",
-        start=0.87, unit="1", min=0.0, max=1.0, nominal=1.0, equation="4",
+        start=1.0, unit="1", min=0.0, max=1.0, nominal=1.0, equation="4",
         source=_SEARCH,
     ),
     _parameter(
@@ -148,7 +148,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "B_f", "B_f", "learning rate of the fast learner",
-        start=0.21, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
+        start=0.17, paper=0.002, unit="1", min=0.0, max=1.0, nominal=0.01, equation="7",
         source=_SEARCH,
     ),
     _parameter(
@@ -157,7 +157,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "B_s", "B_s", "learning rate of the slow learner",
-        start=0.0009, paper=0.0002, unit="1", min=0.0, max=1.0, nominal=0.001, equation="8",
+        start=0.0002, paper=0.0002, unit="1", min=0.0, max=1.0, nominal=0.001, equation="8",
         source=_SEARCH,
     ),
     _parameter(
@@ -186,7 +186,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "phase_filter", "", "share of the new value per tick in the low-pass filter of the vector "
         "phase measure",
-        start=0.035, paper=0.05, unit="1", min=1e-4, max=1.0, nominal=0.1, equation="12",
+        start=0.05, paper=0.05, unit="1", min=1e-4, max=1.0, nominal=0.1, equation="12",
         source="chosen, docs/decisions/phase-measure.md",
     ),
     _parameter(
@@ -204,7 +204,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "kappa_hold", "", "ticks that d stays at or below sigma before kappa switches on",
-        type=Type.integer, start=100, min=1, max=1_000_000, equation="16",
+        type=Type.integer, start=200, min=1, max=1_000_000, equation="16",
         source="chosen, docs/decisions/kappa-rule.md",
     ),
     _parameter(

@@ -56,16 +56,16 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Types.Angle a1(min=0.0, max=1.6)=0.14
       "slope of the motor neuron of the hip (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Types.Angle a2(min=0.0, max=1.6)=0.17
+    parameter Types.Angle a2(min=0.0, max=1.6)=0.15
       "slope of the motor neuron of the knee (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Types.Angle b1(displayUnit="deg", min=-1.6, max=1.6)=-0.43
+    parameter Types.Angle b1(displayUnit="deg", min=-1.6, max=1.6)=-0.2
       "offset of the motor neuron of the hip (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Types.Angle b2(displayUnit="deg", min=-1.6, max=1.6)=0.18
+    parameter Types.Angle b2(displayUnit="deg", min=-1.6, max=1.6)=-0.2
       "offset of the motor neuron of the knee (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
-    parameter Real turn_gain(unit="1", min=0.0, max=1.0)=0.87
+    parameter Real turn_gain(unit="1", min=0.0, max=1.0)=1.0
       "relative change of the amplitudes at full steering (Eq. 4)"
       annotation (Dialog(group="MotorNeurons"));
   end MotorNeurons;
@@ -83,13 +83,13 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Real A_f(unit="1", min=0.0, max=1.0)=0.57
       "retention of the fast learner (Eq. 7)"
       annotation (Dialog(group="DualRateLearner"));
-    parameter Real B_f(unit="1", min=0.0, max=1.0)=0.21
+    parameter Real B_f(unit="1", min=0.0, max=1.0)=0.17
       "learning rate of the fast learner (Eq. 7)"
       annotation (Dialog(group="DualRateLearner"));
     parameter Real A_s(unit="1", min=0.0, max=1.0)=0.99
       "retention of the slow learner (Eq. 8)"
       annotation (Dialog(group="DualRateLearner"));
-    parameter Real B_s(unit="1", min=0.0, max=1.0)=0.0009
+    parameter Real B_s(unit="1", min=0.0, max=1.0)=0.0002
       "learning rate of the slow learner (Eq. 8)"
       annotation (Dialog(group="DualRateLearner"));
   end DualRateLearner;
@@ -119,7 +119,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Types.PhaseMeasure phase_measure=Types.PhaseMeasure.vector
       "how the relative phases are measured; the paper prints peak (Eq. 12)"
       annotation (Dialog(group="PhaseAcquisition"));
-    parameter Real phase_filter(unit="1", min=0.0001, max=1.0)=0.035
+    parameter Real phase_filter(unit="1", min=0.0001, max=1.0)=0.05
       "share of the new value per tick in the low-pass filter of the vector phase measure (Eq. 12)"
       annotation (Dialog(group="PhaseAcquisition"));
   end PhaseAcquisition;
@@ -137,7 +137,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Types.Angle sigma(min=0.0, max=10.0)=0.4
       "threshold of d below which the phases count as stable (Eq. 16)"
       annotation (Dialog(group="PhaseEstimation"));
-    parameter Integer kappa_hold(min=1, max=1000000)=100
+    parameter Integer kappa_hold(min=1, max=1000000)=200
       "ticks that d stays at or below sigma before kappa switches on (Eq. 16)"
       annotation (Dialog(group="PhaseEstimation"));
   end PhaseEstimation;

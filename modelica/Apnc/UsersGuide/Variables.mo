@@ -43,24 +43,24 @@ class Variables "Variables; generated from the table of variables, do not edit"
 <tr><td>o1_start</td><td>1</td><td>0.01</td><td>0.01</td><td>-1 ... 1</td><td>2</td><td>start output of neuron N1, the same for every leg</td><td>authors' code</td></tr>
 <tr><td>o2_start</td><td>1</td><td>0.01</td><td>0.01</td><td>-1 ... 1</td><td>2</td><td>start output of neuron N2, the same for every leg</td><td>authors' code</td></tr>
 <tr><td>a1</td><td>rad</td><td>0.14</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the hip</td><td>authors' robot data</td></tr>
-<tr><td>a2</td><td>rad</td><td>0.17</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
-<tr><td>b1</td><td>rad</td><td>-0.43</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the hip</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
-<tr><td>b2</td><td>rad</td><td>0.18</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
-<tr><td>turn_gain</td><td>1</td><td>0.87</td><td></td><td>0 ... 1</td><td>4</td><td>relative change of the amplitudes at full steering</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
+<tr><td>a2</td><td>rad</td><td>0.15</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
+<tr><td>b1</td><td>rad</td><td>-0.2</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the hip</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
+<tr><td>b2</td><td>rad</td><td>-0.2</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
+<tr><td>turn_gain</td><td>1</td><td>1.0</td><td></td><td>0 ... 1</td><td>4</td><td>relative change of the amplitudes at full steering</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
 <tr><td>A_f</td><td>1</td><td>0.57</td><td></td><td>0 ... 1</td><td>7</td><td>retention of the fast learner</td><td>paper</td></tr>
-<tr><td>B_f</td><td>1</td><td>0.21</td><td>0.002</td><td>0 ... 1</td><td>7</td><td>learning rate of the fast learner</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
+<tr><td>B_f</td><td>1</td><td>0.17</td><td>0.002</td><td>0 ... 1</td><td>7</td><td>learning rate of the fast learner</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
 <tr><td>A_s</td><td>1</td><td>0.99</td><td></td><td>0 ... 1</td><td>8</td><td>retention of the slow learner</td><td>paper</td></tr>
-<tr><td>B_s</td><td>1</td><td>0.0009</td><td>0.0002</td><td>0 ... 1</td><td>8</td><td>learning rate of the slow learner</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
+<tr><td>B_s</td><td>1</td><td>0.0002</td><td>0.0002</td><td>0 ... 1</td><td>8</td><td>learning rate of the slow learner</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
 <tr><td>alpha</td><td>1</td><td>0.9</td><td></td><td>0 ... 1</td><td>10</td><td>scale of the expected load</td><td>paper</td></tr>
 <tr><td>rho</td><td>1</td><td>0.99</td><td></td><td>0 ... 1</td><td>10</td><td>shape of the expected load</td><td>paper</td></tr>
 <tr><td>forward_model</td><td></td><td>ForwardModel.low_pass_hip</td><td></td><td></td><td>10, 11</td><td>how the expected load is computed</td><td>paper</td></tr>
 <tr><td>rbf_rate</td><td>1</td><td>0.02</td><td></td><td>0 ... 1</td><td>10</td><td>learning rate of the radial-basis forward model</td><td>chosen, docs/decisions/radial-basis.md</td></tr>
 <tr><td>phase_measure</td><td></td><td>PhaseMeasure.vector</td><td>PhaseMeasure.peak</td><td></td><td>12</td><td>how the relative phases are measured; the paper prints peak</td><td>authors' code</td></tr>
-<tr><td>phase_filter</td><td>1</td><td>0.035</td><td>0.05</td><td>0.0001 ... 1</td><td>12</td><td>share of the new value per tick in the low-pass filter of the vector phase measure</td><td>chosen, docs/decisions/phase-measure.md</td></tr>
+<tr><td>phase_filter</td><td>1</td><td>0.05</td><td>0.05</td><td>0.0001 ... 1</td><td>12</td><td>share of the new value per tick in the low-pass filter of the vector phase measure</td><td>chosen, docs/decisions/phase-measure.md</td></tr>
 <tr><td>N</td><td></td><td>50</td><td></td><td>1 ... 256</td><td>14</td><td>ticks in the mean of the relative phases</td><td>paper</td></tr>
 <tr><td>sigma</td><td>rad</td><td>0.4</td><td></td><td>0 ... 10</td><td>16</td><td>threshold of d below which the phases count as stable</td><td>paper</td></tr>
 <tr><td>kappa_rule</td><td></td><td>KappaRule.armed</td><td>KappaRule.printed</td><td></td><td>16</td><td>when the couplings switch on; the paper prints Eq. 16</td><td>authors' code arms kappa; the hold is chosen</td></tr>
-<tr><td>kappa_hold</td><td></td><td>100</td><td></td><td>1 ... 1e+06</td><td>16</td><td>ticks that d stays at or below sigma before kappa switches on</td><td>chosen, docs/decisions/kappa-rule.md</td></tr>
+<tr><td>kappa_hold</td><td></td><td>200</td><td></td><td>1 ... 1e+06</td><td>16</td><td>ticks that d stays at or below sigma before kappa switches on</td><td>chosen, docs/decisions/kappa-rule.md</td></tr>
 <tr><td>xi</td><td>1</td><td>0.01</td><td>0.01</td><td>0 ... 1</td><td>17</td><td>gain of the neural communication</td><td>paper</td></tr>
 <tr><td>feedback_kept</td><td>1</td><td>0.1</td><td>1.0</td><td>0 ... 1</td><td>5</td><td>share of the sensory feedback that remains while the couplings are on; the equations have 1</td><td>sections 3.2.1 and 4.3 let gamma become small once the couplings are on</td></tr>
 <tr><td>coupling_sign</td><td></td><td>CouplingSign.reversed</td><td>CouplingSign.printed</td><td></td><td>18</td><td>sign of the coupling term; the paper prints plus</td><td>authors' code</td></tr>
