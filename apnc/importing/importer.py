@@ -17,7 +17,7 @@ from apnc.importing.limbs import Limbs, limbs_of
 from apnc.importing.mjcf import read_mjcf
 from apnc.importing.model import Model, ModelFileError
 from apnc.importing.robot_file import TURN, Found, robot_text
-from apnc.importing.scaling import Estimate, Size, guess
+from apnc.importing.scaling import Estimate, Size, gain, guess
 from apnc.importing.stance import Stance, Swing, stance_by_rule, stance_of_pose
 from apnc.importing.urdf import read_urdf
 from apnc.importing.xml_file import read_xml
@@ -102,7 +102,7 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
         )
     names = _names(legs)
     default = Parameters()
-    swing = Swing(default.a1, default.a2)
+    swing = Swing(gain("a1"), gain("a2"))
     trunk = limbs.trunk.body
     if trunk.mass <= 0.0:
         raise ModelFileError(f"{model.parts[0].name}: it has no mass; allowed: above 0 [kg]")

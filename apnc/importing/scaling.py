@@ -1,10 +1,12 @@
-"""What a model file does not say, taken from Lilibot and scaled to the size of the robot.
+"""What a model file does not say, taken from a reference robot and scaled to the size.
+
+The reference robot is ``reference.toml``.
 
 Two robots move alike if times go with the square root of length and forces with weight (equal
-Froude numbers). In the rules m is the mass and L the length of a leg, as shares of Lilibot's.
+Froude numbers). In the rules m is the mass and L the length of a leg, as shares of its own.
 
 A file that limits the torque of a joint says how large its motor is. With s, the share that this
-limit is of Lilibot's scaled stall torque, at most 1, the rotor is as much smaller, and so is half
+limit is of its scaled stall torque, at most 1, the rotor is as much smaller, and so is half
 of the stiffness. The other half stays, because it carries the weight.
 """
 
@@ -14,6 +16,7 @@ import math
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -36,8 +39,8 @@ USUAL_VELOCITY: Final = 20.0
 
 SHORTEST_RUN_UP: Final = 0.25
 """Time in which the torque limit brings a rotor alone to the no-load speed, as a share of
-Lilibot's, below which the rotor is a placeholder. Gears do not change this time; rotors of most
-files have 0.3 to 0.9."""
+the reference robot's, below which the rotor is a placeholder. Gears do not change this time;
+rotors of most files have 0.3 to 0.9."""
 
 Place = tuple[int, str]
 """Number of a leg, and name of its joint."""
@@ -87,7 +90,7 @@ class Guessed:
         radii: of the feet, leg by leg [m].
         contact, sensor, controller: tables of the robot file.
         com_side_offset: sideways error of the trunk's centre of mass [m].
-        rate: update rate at which the robot moves as Lilibot does at its own [Hz].
+        rate: update rate at which the robot moves as the reference robot does at its own [Hz].
         estimates: which of these numbers are not the file's.
         dropped: what of the file was not taken, in words.
     """
@@ -104,9 +107,9 @@ class Guessed:
 
 
 @cache
-def lilibot() -> tuple[RobotDescription, Size]:
+def reference() -> tuple[RobotDescription, Size]:
     """The robot that is scaled, and its size."""
-    robot = load_robot("lilibot")
+    robot = load_robot(Path(__file__).with_name("reference.toml"))
     leg = robot.legs[0]
     return robot, Size(robot.mass, leg.femur_length + leg.tibia_length, len(robot.legs))
 
@@ -117,9 +120,9 @@ def guess(legs: Sequence[LegGeometry], size: Size, rate: float) -> Guessed:
     Args:
         legs: its legs.
         size: its size.
-        rate: update rate of Lilibot [Hz].
+        rate: update rate of the reference robot [Hz].
     """
-    like, of = lilibot()
+    like, of = reference()
     m, L = size.mass / of.mass, size.length / of.length
     time = math.sqrt(L)
     found = _Found(size, m, L)
@@ -160,19 +163,24 @@ def guess(legs: Sequence[LegGeometry], size: Size, rate: float) -> Guessed:
 
 
 def _gains(legs: int, of: int) -> dict[str, float]:
-    """Parameters of the controller that depend on the number of legs (docs/legs.md)."""
-    default, n = Parameters(), legs / of
+    """Parameters of the controller; some depend on the number of legs (docs/legs.md)."""
+    n = legs / of
     # the reference pose is that about which the robot walks
-    gains = {"b1": 0.0, "b2": 0.0}
+    gains = {**reference()[0].controller, "b1": 0.0, "b2": 0.0}
     if legs != of:
         gains |= {
-            "B_f": min(1.0, default.B_f * n**2),
-            "B_s": min(1.0, default.B_s * n**2),
-            "alpha": default.alpha / n,
-            "F_max": default.F_max / n,
-            "sigma": default.sigma * math.sqrt((legs - 1) / (of - 1)),
+            "B_f": min(1.0, gain("B_f") * n**2),
+            "B_s": min(1.0, gain("B_s") * n**2),
+            "alpha": gain("alpha") / n,
+            "F_max": gain("F_max") / n,
+            "sigma": gain("sigma") * math.sqrt((legs - 1) / (of - 1)),
         }
     return gains
+
+
+def gain(name: str) -> float:
+    """A parameter of the controller of the reference robot."""
+    return float(reference()[0].controller.get(name, getattr(Parameters(), name)))
 
 
 def _foot_mass(tibia: MassProperties, length: float, rotor: float) -> float:
@@ -197,8 +205,8 @@ class _Found:
         self.dropped: list[str] = []
 
     def scaled(self, name: str, value: float, factor: float, unit: str, rule: str) -> float:
-        """A number of Lilibot times a factor."""
-        why = f"Lilibot's {value:g}" + (f" times {rule}" if rule else "")
+        """A number of the reference robot times a factor."""
+        why = f"the reference robot's {value:g}" + (f" times {rule}" if rule else "")
         self.estimates.append(Estimate(name, value * factor, unit, why))
         return value * factor
 
@@ -208,7 +216,7 @@ class _Found:
         if known:
             radius = most_frequent(known)
         else:
-            like, _ = lilibot()
+            like, _ = reference()
             radius = self.scaled(
                 "contact.foot_radius", like.contact.foot_radius, self._length, "m", "L"
             )
@@ -216,7 +224,7 @@ class _Found:
 
     def servos(self, legs: Sequence[LegGeometry]) -> Servos:
         """The servos of all joints."""
-        like, _ = lilibot()
+        like, _ = reference()
         own, m, L = like.servo, self._m, self._length
         motors = {
             (k, joint): (leg.turns[angle].joint.name, leg.turns[angle].joint.motor)
@@ -247,7 +255,7 @@ class _Found:
         if damping is None:
             lag = own.damping / own.stiffness
             damping = {at: value * lag for at, value in stiffness.items()}
-            why = f"stiffness times Lilibot's lag of {lag:.3g} s"
+            why = f"stiffness times the reference robot's lag of {lag:.3g} s"
             self._estimate("servo.damping", max(damping.values()), "N m s/rad", why)
         rotors = self._armatures(motors, stall, speed)
         if rotors is None or not any(rotors.values()):
@@ -278,7 +286,7 @@ class _Found:
     def _all(
         self, motors: Motors, key: str, value: float, factor: float, unit: str, rule: str
     ) -> dict[Place, float]:
-        """A number of Lilibot times a factor, for all joints."""
+        """A number of the reference robot times a factor, for all joints."""
         return dict.fromkeys(motors, self.scaled(f"servo.{key}", value, factor, unit, rule))
 
     def _shared(
@@ -290,7 +298,7 @@ class _Found:
         unit: str,
         rule: str,
     ) -> dict[Place, float]:
-        """A number of Lilibot times a factor and the share of each joint; the largest is told."""
+        """A number of the reference robot times a factor and a share of each joint."""
         most, least = max(shares.values()), min(shares.values())
         if least < most:
             rule += f"; down to {value * factor * least:.4g} where the torque limit is lower"
@@ -301,7 +309,7 @@ class _Found:
         self, motors: Motors, stall: Mapping[Place, float], speed: Mapping[Place, float]
     ) -> dict[Place, float] | None:
         """Inertias of rotors that the file gives, without placeholders."""
-        own = lilibot()[0].servo
+        own = reference()[0].servo
         run_up = SHORTEST_RUN_UP * own.reflected_inertia * own.no_load_speed / own.stall_torque
         given = {at: motor.armature for at, (_, motor) in motors.items() if motor.armature}
         light = [at for at, value in given.items() if value * speed[at] < run_up * stall[at]]
@@ -314,11 +322,11 @@ class _Found:
         return self._filled(motors, "armature", light)
 
     def lightest_foot(self, legs: Sequence[LegGeometry]) -> float:
-        """Mass of the lightest foot, as a share of that of Lilibot's feet.
+        """Mass of the lightest foot, as a share of that of the reference robot's feet.
 
         It is known when the servos are.
         """
-        like, _ = lilibot()
+        like, _ = reference()
         leg = like.legs[0]
         tibia = MassProperties(leg.tibia.mass, np.array(leg.tibia.com), leg.tibia.inertia_tensor())
         usual = _foot_mass(tibia, leg.tibia_length, like.servo.reflected_inertia)
