@@ -100,7 +100,7 @@ class Parameters:
     MI_zero_resets: bool = True
     stored: bool = False
     phi_stored: tuple[float, ...] = ()
-    gamma_tegotae: float = 0.03
+    gamma_tegotae: float = 0.015
     grf_reset: float = 0.4
 
 

@@ -52,6 +52,7 @@ def _with(rest: dict[str, object], variability: str) -> dict[str, Any]:
 
 
 _PAPER = "paper"
+_ROBOT = "authors' robot data"
 _SEARCH = "found by search for this robot, docs/decisions/presets.md"
 _METHOD, _MODEL, _MEASURE, _RULE, _SIGN = ENUMERATIONS
 
@@ -120,7 +121,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "a1", "a_1", "slope of the motor neuron of the hip",
         start=0.14, paper=0.14, unit="rad", min=0.0, max=1.6, nominal=0.1, equation="4",
-        source="authors' robot data",
+        source=_ROBOT,
     ),
     _parameter(
         "a2", "a_2", "slope of the motor neuron of the knee",
@@ -130,17 +131,17 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "b1", "b_1", "offset of the motor neuron of the hip",
         start=-0.2, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
-        equation="4", source=_SEARCH,
+        equation="4", source=_ROBOT,
     ),
     _parameter(
         "b2", "b_2", "offset of the motor neuron of the knee",
         start=-0.2, paper=-0.2, unit="rad", display_unit="deg", min=-1.6, max=1.6, nominal=0.1,
-        equation="4", source=_SEARCH,
+        equation="4", source=_ROBOT,
     ),
     _parameter(
         "turn_gain", "", "relative change of the amplitudes at full steering",
         start=1.0, unit="1", min=0.0, max=1.0, nominal=1.0, equation="4",
-        source=_SEARCH,
+        source="the largest",
     ),
     _parameter(
         "A_f", "A_f", "retention of the fast learner",
@@ -158,7 +159,7 @@ TABLE: Final[tuple[Variable, ...]] = (
     _parameter(
         "B_s", "B_s", "learning rate of the slow learner",
         start=0.0002, paper=0.0002, unit="1", min=0.0, max=1.0, nominal=0.001, equation="8",
-        source=_SEARCH,
+        source=_PAPER,
     ),
     _parameter(
         "alpha", "alpha", "scale of the expected load",
@@ -187,7 +188,7 @@ TABLE: Final[tuple[Variable, ...]] = (
         "phase_filter", "", "share of the new value per tick in the low-pass filter of the vector "
         "phase measure",
         start=0.05, paper=0.05, unit="1", min=1e-4, max=1.0, nominal=0.1, equation="12",
-        source="chosen, docs/decisions/phase-measure.md",
+        source="authors' code, docs/decisions/phase-measure.md",
     ),
     _parameter(
         "N", "N", "ticks in the mean of the relative phases", type=Type.integer,
@@ -245,7 +246,8 @@ TABLE: Final[tuple[Variable, ...]] = (
     ),
     _parameter(
         "gamma_tegotae", "", "fixed feedback gain of the Tegotae baseline",
-        start=0.03, unit="1", min=0.0, max=10.0, nominal=0.1, equation="5", source="authors' code",
+        start=0.015, unit="1", min=0.0, max=10.0, nominal=0.1, equation="5",
+        source="authors' code: 0.03 for a load over the whole weight, not over its half",
     ),
     _parameter(
         "grf_reset", "", "load over a quarter of the weight at which a rising load resets the "

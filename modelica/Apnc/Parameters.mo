@@ -74,7 +74,7 @@ package Parameters "Parameters by block; generated from the table of variables, 
     parameter Real feedback_kept(unit="1", min=0.0, max=1.0)=0.1
       "share of the sensory feedback that remains while the couplings are on; the equations have 1 (Eq. 5)"
       annotation (Dialog(group="SensoryFeedback"));
-    parameter Real gamma_tegotae(unit="1", min=0.0, max=10.0)=0.03
+    parameter Real gamma_tegotae(unit="1", min=0.0, max=10.0)=0.015
       "fixed feedback gain of the Tegotae baseline (Eq. 5)"
       annotation (Dialog(group="SensoryFeedback"));
   end SensoryFeedback;

@@ -44,19 +44,19 @@ class Variables "Variables; generated from the table of variables, do not edit"
 <tr><td>o2_start</td><td>1</td><td>0.01</td><td>0.01</td><td>-1 ... 1</td><td>2</td><td>start output of neuron N2, the same for every leg</td><td>authors' code</td></tr>
 <tr><td>a1</td><td>rad</td><td>0.14</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the hip</td><td>authors' robot data</td></tr>
 <tr><td>a2</td><td>rad</td><td>0.15</td><td>0.14</td><td>0 ... 1.6</td><td>4</td><td>slope of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
-<tr><td>b1</td><td>rad</td><td>-0.2</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the hip</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
-<tr><td>b2</td><td>rad</td><td>-0.2</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the knee</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
-<tr><td>turn_gain</td><td>1</td><td>1.0</td><td></td><td>0 ... 1</td><td>4</td><td>relative change of the amplitudes at full steering</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
+<tr><td>b1</td><td>rad</td><td>-0.2</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the hip</td><td>authors' robot data</td></tr>
+<tr><td>b2</td><td>rad</td><td>-0.2</td><td>-0.2</td><td>-1.6 ... 1.6</td><td>4</td><td>offset of the motor neuron of the knee</td><td>authors' robot data</td></tr>
+<tr><td>turn_gain</td><td>1</td><td>1.0</td><td></td><td>0 ... 1</td><td>4</td><td>relative change of the amplitudes at full steering</td><td>the largest</td></tr>
 <tr><td>A_f</td><td>1</td><td>0.57</td><td></td><td>0 ... 1</td><td>7</td><td>retention of the fast learner</td><td>paper</td></tr>
 <tr><td>B_f</td><td>1</td><td>0.17</td><td>0.002</td><td>0 ... 1</td><td>7</td><td>learning rate of the fast learner</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
 <tr><td>A_s</td><td>1</td><td>0.99</td><td></td><td>0 ... 1</td><td>8</td><td>retention of the slow learner</td><td>paper</td></tr>
-<tr><td>B_s</td><td>1</td><td>0.0002</td><td>0.0002</td><td>0 ... 1</td><td>8</td><td>learning rate of the slow learner</td><td>found by search for this robot, docs/decisions/presets.md</td></tr>
+<tr><td>B_s</td><td>1</td><td>0.0002</td><td>0.0002</td><td>0 ... 1</td><td>8</td><td>learning rate of the slow learner</td><td>paper</td></tr>
 <tr><td>alpha</td><td>1</td><td>0.9</td><td></td><td>0 ... 1</td><td>10</td><td>scale of the expected load</td><td>paper</td></tr>
 <tr><td>rho</td><td>1</td><td>0.99</td><td></td><td>0 ... 1</td><td>10</td><td>shape of the expected load</td><td>paper</td></tr>
 <tr><td>forward_model</td><td></td><td>ForwardModel.low_pass_hip</td><td></td><td></td><td>10, 11</td><td>how the expected load is computed</td><td>paper</td></tr>
 <tr><td>rbf_rate</td><td>1</td><td>0.02</td><td></td><td>0 ... 1</td><td>10</td><td>learning rate of the radial-basis forward model</td><td>chosen, docs/decisions/radial-basis.md</td></tr>
 <tr><td>phase_measure</td><td></td><td>PhaseMeasure.vector</td><td>PhaseMeasure.peak</td><td></td><td>12</td><td>how the relative phases are measured; the paper prints peak</td><td>authors' code</td></tr>
-<tr><td>phase_filter</td><td>1</td><td>0.05</td><td>0.05</td><td>0.0001 ... 1</td><td>12</td><td>share of the new value per tick in the low-pass filter of the vector phase measure</td><td>chosen, docs/decisions/phase-measure.md</td></tr>
+<tr><td>phase_filter</td><td>1</td><td>0.05</td><td>0.05</td><td>0.0001 ... 1</td><td>12</td><td>share of the new value per tick in the low-pass filter of the vector phase measure</td><td>authors' code, docs/decisions/phase-measure.md</td></tr>
 <tr><td>N</td><td></td><td>50</td><td></td><td>1 ... 256</td><td>14</td><td>ticks in the mean of the relative phases</td><td>paper</td></tr>
 <tr><td>sigma</td><td>rad</td><td>0.4</td><td></td><td>0 ... 10</td><td>16</td><td>threshold of d below which the phases count as stable</td><td>paper</td></tr>
 <tr><td>kappa_rule</td><td></td><td>KappaRule.armed</td><td>KappaRule.printed</td><td></td><td>16</td><td>when the couplings switch on; the paper prints Eq. 16</td><td>authors' code arms kappa; the hold is chosen</td></tr>
@@ -68,7 +68,7 @@ class Variables "Variables; generated from the table of variables, do not edit"
 <tr><td>MI_zero_resets</td><td></td><td>true</td><td>false</td><td></td><td>3</td><td>true: MI = 0 acts as reset; false: the oscillators keep running with w12 = w12_0, as printed in Eq. 3</td><td>authors' code</td></tr>
 <tr><td>stored</td><td></td><td>false</td><td></td><td></td><td>17</td><td>true: start with the stored gait phi_stored and the couplings on</td><td></td></tr>
 <tr><td>phi_stored[n - 1]</td><td>rad</td><td>0.0</td><td></td><td>-7 ... 7</td><td>17</td><td>stored gait at the start: relative phase phi_1k, used if stored is true</td><td></td></tr>
-<tr><td>gamma_tegotae</td><td>1</td><td>0.03</td><td></td><td>0 ... 10</td><td>5</td><td>fixed feedback gain of the Tegotae baseline</td><td>authors' code</td></tr>
+<tr><td>gamma_tegotae</td><td>1</td><td>0.015</td><td></td><td>0 ... 10</td><td>5</td><td>fixed feedback gain of the Tegotae baseline</td><td>authors' code: 0.03 for a load over the whole weight, not over its half</td></tr>
 <tr><td>grf_reset</td><td>1</td><td>0.4</td><td></td><td>0 ... 10</td><td></td><td>load over a quarter of the weight at which a rising load resets the phase (phase-resetting baseline)</td><td>authors' code</td></tr>
 </table>
 <h4>Local variables</h4>

@@ -1076,7 +1076,7 @@ static const apnc_variable apnc_variables[APNC_VARIABLES] = {
     {"MI_zero_resets", "MI_zero_resets", "", AT(parameters, MI_zero_resets), 1, APNC_BOOLEAN, APNC_TUNABLE, 1.0, 0.0, 1.0},
     {"stored", "stored", "", AT(parameters, stored), 1, APNC_BOOLEAN, APNC_FIXED, 0.0, 0.0, 1.0},
     {"phi_stored", RELATION("phi_stored"), AT(parameters, phi_stored), APNC_RELATIONS, APNC_REAL, APNC_FIXED, 0.0, -7.0, 7.0},
-    {"gamma_tegotae", "gamma_tegotae", "", AT(parameters, gamma_tegotae), 1, APNC_REAL, APNC_TUNABLE, 0.03, 0.0, 10.0},
+    {"gamma_tegotae", "gamma_tegotae", "", AT(parameters, gamma_tegotae), 1, APNC_REAL, APNC_TUNABLE, 0.015, 0.0, 10.0},
     {"grf_reset", "grf_reset", "", AT(parameters, grf_reset), 1, APNC_REAL, APNC_TUNABLE, 0.4, 0.0, 10.0},
     {"theta_hip", LEG("theta_hip"), AT(outputs, theta_hip), APNC_LEGS, APNC_REAL, APNC_OUTPUT, 0.0, 1.0, -1.0},
     {"theta_knee", LEG("theta_knee"), AT(outputs, theta_knee), APNC_LEGS, APNC_REAL, APNC_OUTPUT, 0.0, 1.0, -1.0},
