@@ -30,9 +30,9 @@ SCALE: Final = 0.8
 """Of the film to the page."""
 RATE: Final = 12
 """Pictures per second; the film shows the time as it passes."""
-PARTS: Final = ((0.0, 2.5), (4.0, 8.25))
+PARTS: Final = ((0.0, 2.5), (5.5, 9.5))
 """What is shown of the walk [s]."""
-EVENTS: Final = {4.75: "page.breakOne()", 5.75: "page.sensors(page.legs)"}
+EVENTS: Final = {6.5: "page.breakOne()", 7.25: "page.sensors(page.legs)"}
 """What happens in the walk, and when [s]."""
 LAST: Final = 2.0
 """How long the last picture stays [s]."""

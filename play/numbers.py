@@ -35,7 +35,7 @@ SHOWN: Final = {"apnc": "APNC", "apc": "APNC without a stored gait"} | {
 }
 """Labels of the controllers to choose from, and their names on the page."""
 
-START: Final = {"lilibot": (0.2, 1), "hexapod": (0.12, 5)}
+START: Final = {"lilibot": (0.25, 0), "hexapod": (0.12, 5)}
 """MI and seed with which the page opens: a robot that walks nearly straight ahead."""
 
 
