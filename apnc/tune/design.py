@@ -214,6 +214,7 @@ def robot_of(start: Start, values: Mapping[str, float]) -> RobotDescription:
         controller={**robot.controller, **gains},
         rate=start.rate,
         mi_range=(low, high),
+        mi=None,  # that of the file may lie outside
     )
 
 
