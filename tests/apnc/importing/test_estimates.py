@@ -1,4 +1,4 @@
-"""What a file does not say is Lilibot's, scaled so that robots of all sizes move alike."""
+"""What a file does not say is the reference robot's, scaled: robots of all sizes move alike."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ from pathlib import Path
 
 import pytest
 
+from apnc import importing
 from apnc.importing import ImportedRobot, import_robot
 from apnc_plant.robot import Body, Leg, RobotDescription, load_robot
 from apnc_plant.robot.urdf import robot_urdf
 
 LONGER, HEAVIER = 3.0, 11.0
+REFERENCE = load_robot(Path(importing.__file__).with_name("reference.toml"))
 
 
 def larger(robot: RobotDescription) -> RobotDescription:
@@ -50,8 +52,8 @@ def bare(robot: RobotDescription, folder: Path) -> ImportedRobot:
     return import_robot(path)
 
 
-def test_lilibot_without_drives_gets_lilibots(tmp_path: Path) -> None:
-    own = load_robot("lilibot")
+def test_the_reference_robot_without_drives_gets_its_own(tmp_path: Path) -> None:
+    own = REFERENCE
     found = bare(own, tmp_path)
     for name, value in vars(found.robot.servo).items():
         assert value == pytest.approx(getattr(own.servo, name)), name
@@ -60,11 +62,13 @@ def test_lilibot_without_drives_gets_lilibots(tmp_path: Path) -> None:
     assert found.robot.sensor.delay == pytest.approx(own.sensor.delay)
     assert found.robot.trunk.com_side_offset == pytest.approx(own.trunk.com_side_offset)
     assert found.robot.rate == pytest.approx(60.0)
+    # it walks about the pose of the file
+    assert found.robot.controller == {**own.controller, "b1": 0.0, "b2": 0.0}
 
 
 def test_a_larger_robot_moves_alike(tmp_path: Path) -> None:
-    """Forces over weight and times over the root of length are those of Lilibot."""
-    own = load_robot("lilibot")
+    """Forces over weight and times over the root of length are those of the reference robot."""
+    own = REFERENCE
     found = bare(larger(own), tmp_path)
     force, torque, time = HEAVIER, HEAVIER * LONGER, LONGER**0.5
     servo, contact = found.robot.servo, found.robot.contact
@@ -88,15 +92,15 @@ def test_a_larger_robot_moves_alike(tmp_path: Path) -> None:
 
 
 def with_effort(effort: str, folder: Path) -> ImportedRobot:
-    """Lilibot with another torque limit, from a URDF that says no more of its servos."""
-    text = re.sub(r"<!--.*?-->", "", robot_urdf(load_robot("lilibot")), flags=re.DOTALL)
+    """The reference robot with another torque limit, from a URDF that says no more."""
+    text = re.sub(r"<!--.*?-->", "", robot_urdf(REFERENCE), flags=re.DOTALL)
     path = folder / "robot.urdf"
     path.write_text(re.sub(r'effort="[^"]*"', f'effort="{effort}"', text))
     return import_robot(path)
 
 
 def test_a_weaker_motor_is_lighter_and_softer(tmp_path: Path) -> None:
-    own = load_robot("lilibot")
+    own = REFERENCE
     found = with_effort(repr(own.servo.stall_torque / 4.0), tmp_path)
     servo, contact = found.robot.servo, found.robot.contact
     assert servo.reflected_inertia == pytest.approx(own.servo.reflected_inertia / 4.0)
@@ -107,8 +111,8 @@ def test_a_weaker_motor_is_lighter_and_softer(tmp_path: Path) -> None:
     assert contact.stiffness == pytest.approx(own.contact.stiffness)
 
 
-def test_a_stronger_motor_is_as_lilibots(tmp_path: Path) -> None:
-    own = load_robot("lilibot").servo
+def test_a_stronger_motor_is_as_the_references(tmp_path: Path) -> None:
+    own = REFERENCE.servo
     servo = with_effort(repr(own.stall_torque * 2.0), tmp_path).robot.servo
     assert servo.stall_torque == pytest.approx(own.stall_torque * 2.0)
     assert servo.reflected_inertia == pytest.approx(own.reflected_inertia)
@@ -119,7 +123,7 @@ def test_a_stronger_motor_is_as_lilibots(tmp_path: Path) -> None:
 def test_a_rotor_too_light_for_its_torque_is_a_placeholder(
     share: float, kept: bool, tmp_path: Path
 ) -> None:
-    own = load_robot("lilibot")
+    own = REFERENCE
     light = replace(own.servo, reflected_inertia=share * own.servo.reflected_inertia)
     path = tmp_path / "robot.urdf"
     path.write_text(robot_urdf(replace(own, servo=light)))
@@ -142,7 +146,7 @@ def test_more_legs_bear_less_each(tmp_path: Path) -> None:
         "L3",
         "LH",
     ]
-    lilibot, gains = bare(load_robot("lilibot"), tmp_path), found.robot.controller
-    assert "F_max" not in lilibot.robot.controller
+    four, gains = bare(REFERENCE, tmp_path), found.robot.controller
+    assert "F_max" not in four.robot.controller
     assert gains["F_max"] == pytest.approx(0.5)
     assert gains["alpha"] == pytest.approx(0.45)
