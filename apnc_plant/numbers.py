@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any, Final, NamedTuple
 
 from apnc_plant.conditions import Conditions
@@ -66,7 +67,7 @@ def robot_numbers(
         gravity: downward acceleration [m/s^2].
     """
     ffi, _ = library()
-    legs = ffi.new("plant_leg[]", [leg_numbers(robot, leg) for leg in robot.legs])
+    legs = ffi.new("plant_leg[]", _legs(robot))
     numbers = {
         "legs": len(robot.legs),
         "gravity": gravity,
@@ -81,6 +82,12 @@ def robot_numbers(
         "leg": legs,
     }
     return Numbers(ffi.new("plant_robot *", numbers), (legs,))
+
+
+@lru_cache(maxsize=64)
+def _legs(robot: RobotDescription) -> list[dict[str, Any]]:
+    """Its legs for cffi, which copies them; a search walks one robot many times."""
+    return [leg_numbers(robot, leg) for leg in robot.legs]
 
 
 def _loaded(trunk: Trunk, side_offset: float, payload: float) -> Any:

@@ -30,7 +30,7 @@ from apnc.many import simulate_many
 from apnc.tune import MI_AIMED
 from apnc.tune.costs import total
 from apnc.tune.design import Candidate, Start, candidate, variables_for
-from apnc.tune.evaluate import Evaluator, seconds
+from apnc.tune.evaluate import evaluator_of, seconds
 from apnc.tune.measured import Measured, measured
 from apnc.tune.runs import Task, of_generation
 from apnc_core.types import Array
@@ -141,8 +141,8 @@ def judged(plan: Plan, found: Sequence[Measured]) -> list[float]:
 def in_c(start: Start, plan: Plan, threads: int) -> float:
     """Time of a generation in C for a robot-second [ms]."""
     tasks = [task for own in plan for task in own]
-    evaluate = Evaluator(start, threads)
-    return _taken(threads, lambda: judged(plan, evaluate(tasks))) / seconds(tasks)
+    with evaluator_of(start, threads, None, lambda: False) as evaluate:
+        return _taken(threads, lambda: judged(plan, evaluate(tasks))) / seconds(tasks)
 
 
 def in_mujoco(

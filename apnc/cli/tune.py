@@ -64,7 +64,7 @@ def tune(
     near: Annotated[
         bool, Option("--near", help="Stay near the robot of the file, as one tuned before.")
     ] = False,
-    workers: Annotated[int | None, Option(help="Number of threads. Default: all cores.")] = None,
+    workers: Annotated[int | None, Option(help="Number of processes. Default: all cores.")] = None,
     scheduler: Annotated[
         str | None, Option(help="Address of a Dask scheduler, as tcp://host:8786.")
     ] = None,

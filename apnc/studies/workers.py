@@ -49,15 +49,28 @@ def pool(
     if workers < 1:
         raise ValueError(f"workers = {workers} is not at least 1")
     others = {t.experiment.engine for t in trials if not t.in_c}
-    yield _processes(workers, sorted(others)) if others and workers > 1 else None
+    if not others or workers == 1:
+        yield None
+        return
+    yield processes(workers, "study", f" with engine {min(others)}")
 
 
-def _processes(workers: int, engines: Sequence[str]) -> Any:
+def processes(workers: int, extra: str, what: str = "") -> Any:
+    """Executor of processes on this machine, which leave signals to their parent.
+
+    Args:
+        workers: number of processes.
+        extra: extra that brings the package that it needs.
+        what: what needs them, for the message if it is missing.
+
+    Raises:
+        ValueError: a missing extra.
+    """
     try:
         from loky import get_reusable_executor  # noqa: PLC0415  # an extra
     except ImportError:
-        needs = f"workers = {workers} with engine {engines[0]} needs the extra 'study'"
-        raise ValueError(f"{needs}: {install_command('study')}, or --workers 1") from None
+        needs = f"workers = {workers}{what} needs the extra '{extra}'"
+        raise ValueError(f"{needs}: {install_command(extra)}, or --workers 1") from None
     executor = get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
     with _interrupts_ignored():
         executor.submit(int)  # starts the processes, which ignore the signals from then on

@@ -15,11 +15,10 @@ import numpy as np
 from apnc.extras import missing
 from apnc.tune.costs import total
 from apnc.tune.design import Candidate, Start, candidate
-from apnc.tune.evaluate import Evaluator, Stopped, seconds
+from apnc.tune.evaluate import Evaluator, Stopped, extra_of, seconds
 from apnc.tune.log import Log
 from apnc.tune.measured import Measured
-from apnc.tune.paper import of_paper
-from apnc.tune.runs import MI_COUNT, Extra, of_check, of_generation
+from apnc.tune.runs import of_check
 from apnc_core.types import Array
 
 CANDIDATES: Final = 16
@@ -127,7 +126,8 @@ def search(
             if costs is None:
                 # scouts walk the same runs, so that their costs can be compared
                 number = count.generations if start.near else max(count.generations, SCOUTS)
-                costs = _costs(start, evaluator, points, 1000 * seed + number, count)
+                costs, simulated = evaluator.costs(points, 1000 * seed + number)
+                count.simulated += simulated
                 log.write(count.generations, points, costs)
             else:
                 count.resumed += len(points)
@@ -148,30 +148,6 @@ def search(
     return best, count
 
 
-def _costs(
-    start: Start, evaluator: Evaluator, points: Sequence[Array], seed: int, count: Count
-) -> list[float]:
-    tried = [candidate(start, x) for x in points]
-    plan = of_generation(start, tried, seed, count=_count(start), extra=_extra(start))
-    tasks = [task for tasks in plan for task in tasks]
-    found = evaluator(tasks)
-    count.simulated += seconds(tasks)
-    each = len(plan[0])
-    return [
-        total(plan[k], found[k * each : (k + 1) * each], paper=start.paper)
-        for k in range(len(plan))
-    ]
-
-
-def _extra(start: Start) -> Extra | None:
-    return of_paper if start.paper else None
-
-
-def _count(start: Start) -> int:
-    """Number of MI of a generation: the paper's range is wide."""
-    return 7 if start.paper else MI_COUNT
-
-
 class _Checks:
     """Checks of favourites, and the best of them."""
 
@@ -186,7 +162,7 @@ class _Checks:
         if known is not None and self.best is not None and known >= self.best.cost:
             self._count.checked = self._count.candidates
             return self.best
-        tasks = of_check(self._start, found, extra=_extra(self._start))
+        tasks = of_check(self._start, found, extra=extra_of(self._start))
         runs = tuple(self._evaluator(tasks))
         self._count.simulated += seconds(tasks)
         checked = Best(

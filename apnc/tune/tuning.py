@@ -14,7 +14,7 @@ from typing import Any, Final
 from apnc.extras import missing
 from apnc.loop.batch import Stop
 from apnc.tune.design import MI_AIMED, MI_OF_PAPER, Candidate, Start, variables_for
-from apnc.tune.evaluate import Evaluator, Stopped, cluster
+from apnc.tune.evaluate import Evaluator, Stopped, evaluator_of
 from apnc.tune.log import Log
 from apnc.tune.measured import target
 from apnc.tune.runs import of_range
@@ -105,7 +105,7 @@ def tune(
             payload, a damaged leg, turns, and a speed that doubles from MI 0.15 to 0.40.
         allowed: what may be changed; the defaults of :class:`Allowed` if omitted.
         near: stay near the robot of the file, as one that was tuned before.
-        workers: number of threads.
+        workers: number of processes.
         scheduler: address of a Dask scheduler whose workers walk instead.
         log: CSV file of all candidates.
         resume: go on with the search of the log.
@@ -166,8 +166,7 @@ def tune(
         shares += [(time.perf_counter() - begun) / limit] if limit else []
         progress(best, count, min(1.0, max(shares, default=1.0)))
 
-    with cluster(scheduler) as client:
-        evaluator = Evaluator(start, workers, client, over)
+    with evaluator_of(start, workers, scheduler, over) as evaluator:
         best, count = search(
             start, evaluator, lines, seed=seed, candidates=candidates, progress=told
         )
