@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +28,7 @@ def test_the_page_has_every_variable_with_its_range() -> None:
 
 
 def test_the_first_candidate_is_the_robot_of_the_file() -> None:
-    robot = load_robot("lilibot")
+    robot = replace(load_robot("lilibot"), mi=None, mi_range=None)
     start = Start(robot, 60.0, MI_AIMED, EVERY)
     found = candidate(start, start.first()).robot
     assert found.legs == robot.legs
@@ -35,6 +37,15 @@ def test_the_first_candidate_is_the_robot_of_the_file() -> None:
     assert found.servo.damping == pytest.approx(robot.servo.damping)
     assert found.trunk.com == pytest.approx(robot.trunk.com)
     assert found.mass == pytest.approx(robot.mass)
+
+
+def test_the_search_begins_at_the_middle_of_the_range_in_the_file() -> None:
+    robot = load_robot("lilibot")
+    assert robot.mi_range is not None
+    start = Start(robot, 60.0, MI_AIMED, EVERY)
+    low, high = candidate(start, start.first()).robot.mi_range or (0.0, 0.0)
+    assert low * high == pytest.approx(math.prod(robot.mi_range))
+    assert high / low == pytest.approx(MI_AIMED[1] / MI_AIMED[0])
 
 
 @pytest.mark.parametrize("variable", EVERY, ids=lambda each: each.name)

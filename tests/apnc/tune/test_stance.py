@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from apnc import importing
 from apnc.tune.stance import StanceChange, _foot, stood
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.robot.model import JointInFile, JointsInFile
@@ -18,7 +20,7 @@ B = (-0.43, 0.18)
 
 @pytest.fixture
 def robot() -> RobotDescription:
-    robot = load_robot("lilibot")
+    robot = load_robot(Path(importing.__file__).with_name("reference.toml"))  # legs alike
     joints = JointsInFile(
         hip=JointInFile("thigh", -1, robot.legs[0].femur_angle),
         knee=JointInFile("calf", -1, -robot.legs[0].tibia_angle),

@@ -94,8 +94,8 @@ def test_what_changed_has_units_and_no_row_for_what_stayed() -> None:
     rows = {row[0]: row[1:] for row in changed(tuned(None))}
     assert rows == {
         "controller.a1": ("0.14", "0.2", "rad"),
-        "mi": ("\N{EN DASH}", "0.13", "1"),
-        "mi_range": ("\N{EN DASH}", "0.08, 0.28", "1"),
+        "mi": ("0.25", "0.13", "1"),
+        "mi_range": ("0.04, 0.4", "0.08, 0.28", "1"),
         "rate": ("\N{EN DASH}", "60", "Hz"),
     }
 
