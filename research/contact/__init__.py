@@ -96,7 +96,7 @@ def figures(results: Sequence[Result]) -> list[Figure]:
 def scenes(_: Robot) -> list[Figure]:
     """Force under a foot of Lilibot at its first touch-down, by damping depth and step."""
     data = []
-    laws = ((SUDDEN, STEPS[-1]), (GRADUAL, STEPS[-1]), (GRADUAL, 32), (GRADUAL, 16))
+    laws = ((SUDDEN, STEPS[-1]), (GRADUAL, STEPS[-1]), (GRADUAL, STEPS[2]), (GRADUAL, STEPS[1]))
     for (depth, steps), colour in zip(laws, COLOURS, strict=False):
         time, force = touch_down(trot(depth, steps), steps)
         label = f"{1e3 * TICK / steps:.3g} ms, damping depth {1e3 * depth:g} mm"

@@ -17,8 +17,8 @@ from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 
 TICK: Final = 1 / 60
-STEPS: Final = (8, 16, 32, 64, 128, 256)
-"""Numbers of integration steps per tick."""
+STEPS: Final = (12, 24, 48, 96, 192)
+"""Numbers of integration steps per tick, from about the longest step that is allowed."""
 
 GRADUAL: Final = load_robot("lilibot").contact.damping_depth
 """Shipped depth over which damping sets in [m]."""
