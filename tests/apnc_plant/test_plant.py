@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plain_robot import plain_text
 from plants import AnyPlant, Kind, in_both
 from unchecked import any_step
 
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
+from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.signals import PLANT_SIGNALS, PlantError
 from apnc_plant.step import own_step
 
@@ -162,11 +163,10 @@ def test_a_fallen_robot_is_noticed(kind: Kind) -> None:
 
 @in_both
 def test_six_legs_are_another_file(kind: Kind, tmp_path: Path) -> None:
-    text = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
     middle = '[[legs]]\nname = "{}M"\nmount = [0.0, {}, 0.0]\n\n'
     more = middle.format("R", -0.066) + middle.format("L", 0.066) + "[servo]"
     path = tmp_path / "hexapod.toml"
-    path.write_text(text.replace("[servo]", more), encoding="utf-8")
+    path.write_text(plain_text().replace("[servo]", more), encoding="utf-8")
     plant = stand(kind, load_robot(str(path)))
     assert plant.legs == ("RF", "RM", "RH", "LF", "LM", "LH")
     assert plant.mass == pytest.approx(3.1)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from command_line import run
+from plain_robot import plain_text
 
 from apnc import Gait, write_gait
 from apnc_plant.robot import ROBOTS, load_robot
@@ -167,8 +168,8 @@ def test_who_connects_the_input_is_told_the_mi_of_the_robot(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    text = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
-    Path("own.toml").write_text(f"mi = 0.2\nmi_range = [0.1, 0.3]\n{text}", encoding="utf-8")
+    own = f"mi = 0.2\nmi_range = [0.1, 0.3]\n{plain_text()}"
+    Path("own.toml").write_text(own, encoding="utf-8")
     code, out, err = run(capsys, "build", "--platform", "host", "--robot", "own.toml")
     assert code == 0, err
     assert "MI is an input, 0.08 until it is set; this robot walks at 0.2 (0.1 to 0.3)\n" in out

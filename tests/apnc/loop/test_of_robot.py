@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +20,9 @@ from apnc_plant.robot import ROBOTS, RobotDescriptionError
 from build_fmu.build import cached_fmu
 from build_fmu.options import BuildOptions, host_platform
 
-LILIBOT = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
+LILIBOT = re.sub(r"^mi.*\n", "", (ROBOTS / "lilibot.toml").read_text("utf-8"), flags=re.MULTILINE)
+"""Text of the file without the MI and the range of its own."""
+
 RATE = 36.3  # 1 / (1 / 36.3) is another double
 
 
@@ -46,8 +49,15 @@ def test_the_robots_rate_and_mi_hold_where_none_is_asked_for(tmp_path: Path) -> 
     assert (other.rate, other.mi) == (RATE, 0.12)
 
 
-@pytest.mark.parametrize("name", ["lilibot", "hexapod", "octopod"])
-def test_the_shipped_robots_walk_at_the_defaults(name: str) -> None:
+def test_lilibot_walks_at_the_default_rate_and_its_own_mi() -> None:
+    found = Experiment()
+    assert (found.rate, found.mi) == (60.0, load_robot("lilibot").mi)
+    assert source_of_rate(found) == "the default"
+    assert source_of_mi(found) == "from the robot's file"
+
+
+@pytest.mark.parametrize("name", ["hexapod", "octopod"])
+def test_the_other_shipped_robots_walk_at_the_defaults(name: str) -> None:
     robot = load_robot(name)
     assert (robot.rate, robot.mi_range, robot.mi) == (None, None, None)
     found = Experiment(robot=name)
@@ -97,7 +107,7 @@ def test_mi_outside_the_range_is_told_in_one_line(caplog: pytest.LogCaptureFixtu
     runs = [Experiment(robot=robot, mi=mi) for mi in (0.1, 0.2, 0.15)]
     runs.append(Experiment(robot=robot, mi=((0.0, 0.15), (2.0, 0.0), (3.0, 0.15))))
     assert outside(runs) is None
-    assert outside([Experiment(mi=0.9)]) is None
+    assert outside([Experiment(robot="hexapod", mi=0.9)]) is None
     runs += [Experiment(robot=robot, mi=mi) for mi in (0.3, 0.05, 0.3)]
     line = "MI 0.05, 0.3: the gait of robot 'lilibot' is for 0.1 ... 0.2"
     assert outside(runs) == line

@@ -209,7 +209,7 @@ def test_target_gait_has_its_name() -> None:
 
 
 def test_heading_says_robot_and_mi_and_what_is_not_default() -> None:
-    assert heading(Experiment()) == "lilibot, MI 0.08"
+    assert heading(Experiment(mi=0.08)) == "lilibot, MI 0.08"
     experiment = Experiment(
         robot="hexapod",
         preset="paper",
@@ -224,7 +224,8 @@ def test_heading_says_robot_and_mi_and_what_is_not_default() -> None:
     )
     assert heading(experiment) == expected
     damaged = Conditions(damaged=("RF",), payload=0.5)
-    assert heading(Experiment(conditions=damaged)) == "lilibot, MI 0.08, payload 0.5, damaged RF"
+    said = heading(Experiment(mi=0.08, conditions=damaged))
+    assert said == "lilibot, MI 0.08, payload 0.5, damaged RF"
 
 
 def test_facts_name_robot_preset_condition_ground_parameters_and_memory() -> None:

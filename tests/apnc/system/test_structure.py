@@ -11,6 +11,7 @@ from apnc import Experiment
 from apnc.system.structure import structure_of
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Obstacles, Plane, Waves
+from apnc_plant.step import own_step
 from apnc_plant.variables import Condition
 
 BUILT_IN = {
@@ -28,15 +29,15 @@ def plant_starts(experiment: Experiment, **numbers: float) -> dict[str, float]:
 
 def test_the_plant_starts_as_the_experiment_says() -> None:
     robot, usual = Experiment().description, plant_starts(Experiment())
-    assert usual["step"] == 1 / 960 and usual["condition"] == Condition.C1.value
+    assert usual["step"] == own_step(robot) and usual["condition"] == Condition.C1.value
     for part in ("servo", "contact", "sensor"):
         for name, value in vars(getattr(robot, part)).items():
             if name != "component" and f"{part}.{name}" not in BUILT_IN:
                 assert usual[f"{part}.{name}"] == value
     assert not BUILT_IN & set(usual)
     ground = Obstacles(slope=0.1, roughness=0.5, seed=7)
-    own = Experiment(ground=ground, seed=7, step=1 / 480, conditions="S3")
-    changed = {"seed": 7, "roughness": 0.5, "slope": 0.1, "step": 1 / 480, "condition": 7}
+    own = Experiment(ground=ground, seed=7, step=1 / 1920, conditions="S3")
+    changed = {"seed": 7, "roughness": 0.5, "slope": 0.1, "step": 1 / 1920, "condition": 7}
     assert plant_starts(own, servo_stiffness=20.0) == usual | changed | {"servo.stiffness": 20.0}
     assert plant_starts(Experiment(ground=Plane(slope=-0.1))) == usual | {"slope": -0.1}
 

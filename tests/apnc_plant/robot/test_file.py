@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plain_robot import plain_robot, plain_text
 
-from apnc_plant.robot import ROBOTS, Contact, RobotDescriptionError, Sensor, load_robot
+from apnc_plant.robot import Contact, RobotDescriptionError, Sensor, load_robot
 
-LILIBOT = (ROBOTS / "lilibot.toml").read_text(encoding="utf-8")
+TEXT = plain_text()
 
 
 def test_lilibot_has_the_published_mass_and_leg_order() -> None:
@@ -27,14 +28,14 @@ def test_lilibot_has_the_published_mass_and_leg_order() -> None:
 
 
 def test_box_inertia() -> None:
-    trunk = load_robot("lilibot").trunk
+    trunk = plain_robot().trunk
     expected = 1.3 / 12 * np.array([0.16**2 + 0.06**2, 0.26**2 + 0.06**2, 0.26**2 + 0.16**2])
     np.testing.assert_allclose(trunk.inertia_tensor(), np.diag(expected))
 
 
 def test_inertia_of_its_own_is_mirrored_with_its_leg(tmp_path: Path) -> None:
     own = "[leg.femur]\ninertia = [3e-4, 2e-4, 1.5e-4, 1e-5, 2e-5, 3e-5]"
-    robot = load_robot(written(tmp_path, LILIBOT.replace("[leg.femur]", own)))
+    robot = load_robot(written(tmp_path, TEXT.replace("[leg.femur]", own)))
     right, left = (leg.mass_properties(leg.femur).inertia for leg in robot.legs[::2])
     np.testing.assert_array_equal(
         left, [[3e-4, 1e-5, 2e-5], [1e-5, 2e-4, 3e-5], [2e-5, 3e-5, 1.5e-4]]
@@ -49,8 +50,7 @@ def test_inertia_of_its_own_is_mirrored_with_its_leg(tmp_path: Path) -> None:
 def test_an_outline_is_not_the_box_with_the_inertia(tmp_path: Path) -> None:
     own = "mass = 1.3\noutline = [0.3, 0.2, 0.1]"
     plain, robot = (
-        load_robot(written(tmp_path, text))
-        for text in (LILIBOT, LILIBOT.replace("mass = 1.3", own))
+        load_robot(written(tmp_path, text)) for text in (TEXT, TEXT.replace("mass = 1.3", own))
     )
     np.testing.assert_array_equal(robot.trunk.inertia_tensor(), plain.trunk.inertia_tensor())
     np.testing.assert_allclose(np.ptp(robot.trunk.corners(), axis=0), [0.3, 0.2, 0.1])
@@ -62,11 +62,11 @@ def test_an_outline_is_not_the_box_with_the_inertia(tmp_path: Path) -> None:
 def test_the_servo_of_a_joint_is_that_of_its_leg_its_kind_or_the_robot(tmp_path: Path) -> None:
     of_kind = "[servo.knee]\nstiffness = 20.0\ndry_friction = 0.1\n\n[contact]"
     of_leg = 'name = "LF"\nservo = { knee = { stiffness = 30.0 }, hip = { damping = 0.5 } }'
-    text = LILIBOT.replace("[contact]", of_kind).replace('name = "LF"', of_leg)
+    text = TEXT.replace("[contact]", of_kind).replace('name = "LF"', of_leg)
     robot = load_robot(written(tmp_path, text))
     common, lf, lh = robot.servo, robot.legs[2], robot.legs[3]
-    assert robot.servo_of(lh, "abduction") == load_robot("lilibot").servo
-    assert robot.servo_of(lh, "hip") == load_robot("lilibot").servo
+    assert robot.servo_of(lh, "abduction") == plain_robot().servo
+    assert robot.servo_of(lh, "hip") == plain_robot().servo
     knees = [robot.servo_of(leg, "knee") for leg in (lh, lf)]
     assert [(k.stiffness, k.dry_friction, k.damping) for k in knees] == [
         (20.0, 0.1, common.damping), (30.0, 0.1, common.damping)
@@ -75,37 +75,37 @@ def test_the_servo_of_a_joint_is_that_of_its_leg_its_kind_or_the_robot(tmp_path:
 
 
 def test_a_link_without_mass_needs_a_rotor_or_what_it_carries(tmp_path: Path) -> None:
-    bare = LILIBOT.replace("reflected_inertia", "# reflected_inertia")
+    bare = TEXT.replace("reflected_inertia", "# reflected_inertia")
     hip, tibia = ("[leg.hip]\nmass = 0.095", "[leg.tibia]\nmass = 0.085")
-    for text in (LILIBOT, bare):
+    for text in (TEXT, bare):
         assert load_robot(written(tmp_path, text.replace(hip, "[leg.hip]\nmass = 0"))).mass < 2.5
     light = tibia.replace("0.085", "0.0")
-    assert load_robot(written(tmp_path, LILIBOT.replace(tibia, light))).mass < 2.5
+    assert load_robot(written(tmp_path, TEXT.replace(tibia, light))).mass < 2.5
     with pytest.raises(RobotDescriptionError, match="the knee of leg RF turns neither mass nor"):
         load_robot(written(tmp_path, bare.replace(tibia, light)))
     own = f"{light}\ninertia = [1, 1, 1, 0, 0, 0]"
     with pytest.raises(RobotDescriptionError, match="tibia: mass is 0 and there is an inertia"):
-        load_robot(written(tmp_path, LILIBOT.replace(tibia, own)))
+        load_robot(written(tmp_path, TEXT.replace(tibia, own)))
 
 
 def test_stops_are_angles_of_the_links(tmp_path: Path) -> None:
     own = "[leg]\nabduction_range = [-10, 20]\nfemur_range = [30, 60]\ntibia_range = [80, 100]"
-    robot = load_robot(written(tmp_path, LILIBOT.replace("[leg]", own)))
+    robot = load_robot(written(tmp_path, TEXT.replace("[leg]", own)))
     right, left = (np.degrees(leg.stops) for leg in robot.legs[::2])
     np.testing.assert_allclose(left, [[-10, 20], [43 - 60, 43 - 30], [80 - 92, 100 - 92]])
     np.testing.assert_allclose(right, [[-20, 10], *left[1:]])
-    assert np.isinf(load_robot("lilibot").legs[0].stops).all()
+    assert np.isinf(plain_robot().legs[0].stops).all()
 
 
 def test_the_stall_torque_bends_a_stop_by_one_degree_unless_the_file_says_more() -> None:
-    servo = load_robot("lilibot").servo
+    servo = plain_robot().servo
     assert servo.stop == (pytest.approx(servo.stall_torque * 180.0 / math.pi), servo.damping)
     assert replace(servo, stop_stiffness=5.0, stop_damping=0.0).stop == (5.0, 0.0)
 
 
 def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
     path = tmp_path / "heavy.toml"
-    path.write_text(LILIBOT.replace("mass = 1.3", "mass = 2.55"), encoding="utf-8")
+    path.write_text(TEXT.replace("mass = 1.3", "mass = 2.55"), encoding="utf-8")
     assert load_robot(str(path)).mass == pytest.approx(3.75)
 
 
@@ -239,8 +239,8 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
 )
 def test_values_out_of_range_are_named(tmp_path: Path, old: str, new: str, expected: str) -> None:
     path = tmp_path / "broken.toml"
-    assert old in LILIBOT
-    path.write_text(LILIBOT.replace(old, new, 1), encoding="utf-8")
+    assert old in TEXT
+    path.write_text(TEXT.replace(old, new, 1), encoding="utf-8")
     with pytest.raises(RobotDescriptionError) as caught:
         load_robot(str(path))
     assert expected in str(caught.value)
@@ -276,13 +276,13 @@ def written(tmp_path: Path, text: str) -> str:
             'component = "all"',
             "sensor.component is 'all'; allowed: normal or norm",
         ),
-        ('name = "lilibot"', "", "name is missing; allowed: a name"),
+        ('name = "plain"', "", "name is missing; allowed: a name"),
         ("[servo]", "[controller]\nxj = 1\n[servo]", "parameter 'xj' is not one of Ts, robot_w"),
         ("[servo]", "[controller]\nxi = 7\n[servo]", "xi = 7; allowed: a number from 0 to 1"),
         ("[servo]", "[controller]\nTs = 0.1\n[servo]", "controller: Ts is 0.1; allowed: param"),
-        ('name = "lilibot"', 'name = "a"\ncontroller = 3', "controller is 3; allowed: a table"),
+        ('name = "plain"', 'name = "a"\ncontroller = 3', "controller is 3; allowed: a table"),
         (
-            'name = "lilibot"',
+            'name = "plain"',
             'name = "a"\nheight = 3',
             "height is 3; allowed: only contact, controller, leg, legs, mi",
         ),
@@ -292,9 +292,9 @@ def written(tmp_path: Path, text: str) -> str:
 def test_what_is_wrong_is_named_with_its_place(
     tmp_path: Path, old: str, new: str, expected: str
 ) -> None:
-    assert old in LILIBOT
+    assert old in TEXT
     with pytest.raises(RobotDescriptionError) as caught:
-        load_robot(written(tmp_path, LILIBOT.replace(old, new, 1)))
+        load_robot(written(tmp_path, TEXT.replace(old, new, 1)))
     assert str(caught.value).startswith("robot file own.toml: ")
     assert expected in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -310,14 +310,14 @@ def test_what_is_wrong_is_named_with_its_place(
     ],
 )
 def test_a_robot_without_legs_is_refused(tmp_path: Path, legs: str, line: str) -> None:
-    start, rest = LILIBOT.index("[[legs]]"), LILIBOT.index("[servo]")
-    text = legs + "\n" + LILIBOT[:start] + LILIBOT[rest:]
+    start, rest = TEXT.index("[[legs]]"), TEXT.index("[servo]")
+    text = legs + "\n" + TEXT[:start] + TEXT[rest:]
     with pytest.raises(RobotDescriptionError, match=line):
         load_robot(written(tmp_path, text))
 
 
 def test_what_is_left_out_has_its_default(tmp_path: Path) -> None:
-    lines = LILIBOT[: LILIBOT.index("[sensor]")].splitlines()
+    lines = TEXT[: TEXT.index("[sensor]")].splitlines()
     optional = (
         "center", "com_side_offset", "reflected_inertia", "latency", "slew_rate",
         "damping_depth", "friction", "friction_speed",
@@ -334,11 +334,11 @@ def test_what_is_left_out_has_its_default(tmp_path: Path) -> None:
 
 
 def test_legs_go_in_any_order_and_keep_their_parts(tmp_path: Path) -> None:
-    head, tail = LILIBOT.split("[[legs]]", 1)[0], LILIBOT[LILIBOT.index("[servo]") :]
-    blocks = LILIBOT[len(head) : LILIBOT.index("[servo]")].split("[[legs]]")[1:]
+    head, tail = TEXT.split("[[legs]]", 1)[0], TEXT[TEXT.index("[servo]") :]
+    blocks = TEXT[len(head) : TEXT.index("[servo]")].split("[[legs]]")[1:]
     shuffled = head + "".join("[[legs]]" + blocks[k] for k in (2, 3, 0, 1)) + tail
     assert shuffled.index('"LF"') < shuffled.index('"RF"')
-    assert load_robot(written(tmp_path, shuffled)) == load_robot("lilibot")
+    assert load_robot(written(tmp_path, shuffled)) == plain_robot()
     robot = load_robot("hexapod")
     assert [leg.name for leg in robot.legs] == ["RF", "RM", "RH", "LF", "LM", "LH"]
     assert replace(robot, legs=robot.legs[::-1]) == robot
@@ -346,14 +346,14 @@ def test_legs_go_in_any_order_and_keep_their_parts(tmp_path: Path) -> None:
 
 def test_an_odd_leg_is_on_the_left(tmp_path: Path) -> None:
     tail = '[[legs]]\nname = "T"\nmount = [-0.15, 0.0, 0.0]\n\n[servo]'
-    robot = load_robot(written(tmp_path, LILIBOT.replace("[servo]", tail)))
+    robot = load_robot(written(tmp_path, TEXT.replace("[servo]", tail)))
     assert [leg.name for leg in robot.legs] == ["RF", "RH", "LF", "LH", "T"]
 
 
 def test_a_leg_can_differ_from_the_others(tmp_path: Path) -> None:
     own = "mount = [0.092, 0.066, 0.0]\ntibia_length = 0.09\nhip = {mass = 0.1}"
-    robot = load_robot(written(tmp_path, LILIBOT.replace("mount = [0.092, 0.066, 0.0]", own)))
-    common = load_robot("lilibot").legs[0]
+    robot = load_robot(written(tmp_path, TEXT.replace("mount = [0.092, 0.066, 0.0]", own)))
+    common = plain_robot().legs[0]
     special = robot.legs[2]
     assert special.tibia_length == 0.09
     assert special.hip == replace(common.hip, mass=0.1)
@@ -362,24 +362,22 @@ def test_a_leg_can_differ_from_the_others(tmp_path: Path) -> None:
 
 
 def test_files_that_call_the_mount_hip_are_still_read(tmp_path: Path) -> None:
-    assert load_robot(written(tmp_path, LILIBOT.replace("mount =", "hip ="))) == load_robot(
-        "lilibot"
-    )
+    assert load_robot(written(tmp_path, TEXT.replace("mount =", "hip ="))) == plain_robot()
 
 
 def test_a_robot_carries_its_own_gains(tmp_path: Path) -> None:
     table = '[controller]\nxi = 0.03\nN = 40\nkappa_rule = "printed"\nphi_frozen = false\n'
-    robot = load_robot(written(tmp_path, LILIBOT + "\n" + table))
+    robot = load_robot(written(tmp_path, TEXT + "\n" + table))
     assert robot.controller == {"xi": 0.03, "N": 40, "kappa_rule": 2, "phi_frozen": False}
     assert isinstance(robot.controller["phi_frozen"], bool)
-    assert robot != load_robot("lilibot")
+    assert robot != plain_robot()
     assert hash(robot)
     assert pickle.loads(pickle.dumps(robot)) == robot
     assert asdict(robot)["controller"]["N"] == 40
 
 
 def test_angles_are_in_degrees_in_a_file_and_in_radians_in_a_robot() -> None:
-    leg = load_robot("lilibot").legs[0]
+    leg = plain_robot().legs[0]
     assert leg.femur_angle == pytest.approx(43.0 * math.pi / 180.0, abs=1e-15)
     assert replace(leg, tibia_angle=math.pi).tibia_angle == math.pi
     with pytest.raises(RobotDescriptionError, match=r"tibia_angle is 183\..*to 180 \[deg"):
@@ -387,7 +385,7 @@ def test_angles_are_in_degrees_in_a_file_and_in_radians_in_a_robot() -> None:
 
 
 def test_a_robot_made_in_code_is_checked_too() -> None:
-    robot = load_robot("lilibot")
+    robot = plain_robot()
     with pytest.raises(RobotDescriptionError, match=r"friction is -0.1; allowed"):
         replace(robot.contact, friction=-0.1)
     with pytest.raises(
