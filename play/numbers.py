@@ -21,9 +21,10 @@ from apnc_plant.ground.obstacles import CELLS, SINK_IN, STEP_HEIGHT, TILE, Obsta
 from apnc_plant.library import declarations, library
 from apnc_plant.numbers import bare_trunk, robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot import RobotDescription
+from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.robot.body import PAYLOAD_SIZE
 from apnc_plant.robot.links import links_of
+from apnc_plant.robot.size import times_longer
 from apnc_plant.signals import PLANT_SIGNALS
 from build_fmu.library import headers
 
@@ -35,8 +36,17 @@ SHOWN: Final = {"apnc": "APNC", "apc": "APNC without a stored gait"} | {
 }
 """Labels of the controllers to choose from, and their names on the page."""
 
-START: Final = {"lilibot": (0.25, 0), "hexapod": (0.12, 5)}
+START: Final = {"lilibot": (0.25, 0), "hexapod": (0.12, 5), "solo12": (0.22, 2), "a1": (0.21, 0)}
 """MI and seed with which the page opens: a robot that walks nearly straight ahead."""
+
+FILES: Final = Path(__file__).parent / "robots"
+"""Robot files that do not ship with the package."""
+
+
+def robot_of(name: str) -> RobotDescription:
+    """A robot of the page: of ``FILES``, else one that ships with the package."""
+    file = FILES / f"{name}.toml"
+    return load_robot(file if file.is_file() else name)
 
 
 def struct_of(robot: RobotDescription) -> bytes:
@@ -90,7 +100,7 @@ def _copy(ffi: Any, to: Any, source: Any) -> None:
 
 def robot_data(name: str) -> dict[str, Any]:
     """All that the page knows of a robot: its numbers, what it looks like, its controllers."""
-    robot = Experiment(robot=name).description
+    robot = robot_of(name)
     legs = tuple(leg.name for leg in robot.legs)
     n = len(legs)
     return {
@@ -101,14 +111,16 @@ def robot_data(name: str) -> dict[str, Any]:
         "trunk": {"size": robot.trunk.edges, "center": robot.trunk.center},
         "payload": PAYLOAD_SIZE,
         "footRadius": max(robot.foot_radii),
+        "size": times_longer(robot),
         "weight": robot.weight,
+        "Ts": Experiment(robot=robot).Ts,
         "chains": chains_of(robot),
         "gaits": metrics.GAITS.get(n, {}),
         "gait": metrics.gait_name(n),
         "mi": START[name][0],
         "seed": START[name][1],
         "parameters": {
-            label: _floats(Experiment(robot=name, controller=label).starts()) for label in SHOWN
+            label: _floats(Experiment(robot=robot, controller=label).starts()) for label in SHOWN
         },
         "columns": [column for signal in PLANT_SIGNALS for column in signal.columns(legs)],
     }
@@ -161,5 +173,4 @@ def shared_data() -> dict[str, Any]:
         "tile": TILE,
         "stepHeight": STEP_HEIGHT,
         "balls": round(Obstacles().density * TILE**2),
-        "Ts": Experiment().Ts,
     }

@@ -20,7 +20,7 @@
 #define CONTACTS      32   /* places at which a foot touches obstacles at most */
 #define SLOPE_RATE    0.12 /* [rad/s] by which the ground tilts */
 #define ROUGH_RATE    0.5  /* [1/s] by which obstacles rise */
-#define PUSH_TICKS    6    /* a push lasts a tenth of a second */
+#define PUSH_SECONDS  0.1  /* that a push lasts */
 
 _Static_assert(sizeof(play_numbers) == PLAY_NUMBERS_SIZE, "Python lays the numbers out alike");
 
@@ -36,7 +36,8 @@ static double stuck[APNC_LEGS];    /* [N] what a sensor delivers; not a number: 
 static double slope, roughness;    /* [rad], [1] where the ground is going */
 static double rough_now;           /* [1] where it is */
 static double push[2];             /* [N s] forward and to the left, in the world */
-static int32_t push_left;          /* [ticks] */
+static int32_t push_ticks;         /* [ticks] that a push lasts */
+static int32_t push_left;          /* [ticks] of it */
 static double payload, total_mass; /* [kg] */
 static uint64_t seed;
 
@@ -139,7 +140,8 @@ EXPORT(go_to_ground) void play_go_to_ground(double to_slope, double to_roughness
 EXPORT(push) void play_push(double x, double y) {
     push[0] = x;
     push[1] = y;
-    push_left = PUSH_TICKS;
+    push_ticks = (int32_t)(PUSH_SECONDS / numbers.Ts + 0.5);
+    push_left = push_ticks;
 }
 
 static double towards(double now, double then, double most) {
@@ -176,8 +178,8 @@ static void move_ground(void) {
 }
 
 static void be_pushed(void) {
-    const double share = 1.0 / (PUSH_TICKS * total_mass);
     if (!push_left) return;
+    const double share = 1.0 / (push_ticks * total_mass);
     push_left--;
     plant_shift_velocity(plant, 0, share * push[0], share * push[1]);
 }

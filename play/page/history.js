@@ -9,7 +9,7 @@ export class History {
   constructor(loop) {
     this.n = loop.n;
     this.robot = loop.robot;
-    this.Ts = loop.data.Ts;
+    this.Ts = loop.Ts;
     this.room = Math.round(SECONDS / this.Ts);
     this.threshold = 0.5 * loop.data.stanceShare * loop.robot.weight;
     this.count = 0; // ticks taken, of which the last `room` are kept

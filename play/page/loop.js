@@ -48,7 +48,8 @@ export class Loop {
     return (this.views[name] = new (real ? Float64Array : Int32Array)(this.memory, this.c.variable_at(index), count));
   }
 
-  get time() { return this.ticks * this.data.Ts; }
+  get Ts() { return this.robot.Ts; }
+  get time() { return this.ticks * this.Ts; }
   get stored() { return this.variable("kappa")[0] > 0; }
   get slope() { return this.c.slope_now(); }
   get bumps() { return this.c.rough_now(); }

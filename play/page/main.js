@@ -24,7 +24,7 @@ class Page {
     this.controls = new Controls(this);
     this.start();
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
-      for (let t = 0; t < STILL; t += data.Ts) this.step();
+      for (let t = 0; t < STILL; t += this.loop.Ts) this.step();
       this.paused = true;
     }
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.changed());
@@ -73,7 +73,7 @@ class Page {
 
   fall() {
     if (!this.fallen) this.history.note("fell");
-    this.fallen += this.data.Ts;
+    this.fallen += this.loop.Ts;
     this.say("It fell. It starts anew in a moment.");
     if (this.fallen > FALLEN || this.loop.fares === DIVERGED) this.restart = true;
   }
@@ -86,7 +86,7 @@ class Page {
     if (passed) this.rate = this.rate ? 0.95 * this.rate + 0.05 / passed : 1 / passed; // over about 20 frames
     if (this.paused) return;
     this.owed += passed / this.settings.slow;
-    for (; this.owed >= this.data.Ts; this.owed -= this.data.Ts) {
+    for (; this.owed >= this.loop.Ts; this.owed -= this.loop.Ts) {
       this.step();
       if (this.restart) { this.restart = false; this.start(); }
     }
@@ -95,7 +95,7 @@ class Page {
 
   /** Draw between the last two ticks, so that it moves smoothly at any speed. */
   picture() {
-    const { history, settings, look } = this, part = this.owed / this.data.Ts, last = history.count - 1;
+    const { history, settings, look } = this, part = this.owed / this.loop.Ts, last = history.count - 1;
     const [a, b] = [history.sample(Math.max(history.first, last - 1)), history.sample(last)];
     const sample = b.map((value, k) => a[k] + part * (value - a[k]));
     this.scene.draw({ sample, look, off: settings.off, payload: settings.load, tick: last, passed: this.passed ?? 0, fallen: this.fallen > 0 });

@@ -4,14 +4,15 @@ import { perLeg, trunk } from "./loop.js";
 import { Camera, add, chainOf, dot, groundFrame, mix, rotation, turned, turnedBack } from "./space.js";
 import { LIGHT, bevelled, css, drawBall, drawFaces, drawLimb, rgb, shade, shadowOf } from "./solids.js";
 
-const TILE = 0.2; // [m] edge of a tile that is drawn
-const REACH = 1.7; // [m] of the ground that is drawn
+// lengths [m] are those for a robot of Lilibot's size; larger ones are seen from farther away
+const TILE = 0.2; // edge of a tile that is drawn
+const REACH = 1.7; // of the ground that is drawn
 const RINGS = 12; // steps in which the floor fades
 const PRINTS = 10; // [s] that footprints last
-const ARROW = 0.13; // [m] of the arrow of a load of half the weight
+const ARROW = 0.13; // of the arrow of a load of half the weight
 const CALM = 0.15; // [s] by which the camera lags behind
 const TURNS = 1.5; // [s] by which it lags behind the heading
-const LOST = 0.3; // [m] of lag at which it jumps
+const LOST = 0.3; // lag at which it jumps
 const DARK = [43, 50, 58];
 
 export class Scene {
@@ -23,13 +24,13 @@ export class Scene {
   /** Another robot, or the same from its start. */
   show(loop) {
     const { robot } = loop;
-    Object.assign(this, { robot, n: loop.n, loop, prints: [], before: [] });
-    this.camera.follow = null;
-    this.trunk = bevelled(robot.trunk.size, robot.trunk.center, 0.014);
+    Object.assign(this, { robot, n: loop.n, loop, prints: [], before: [], size: robot.size });
+    Object.assign(this.camera, { follow: null, size: robot.size });
+    this.trunk = bevelled(robot.trunk.size, robot.trunk.center, 0.014 * robot.size);
     const [, , height] = robot.trunk.size, lift = (height + robot.payload[2]) / 2;
-    this.payload = bevelled(robot.payload, add(robot.trunk.center, [0, 0, lift]), 0.006);
+    this.payload = bevelled(robot.payload, add(robot.trunk.center, [0, 0, lift]), 0.006 * robot.size);
     this.half = robot.trunk.size[1] / 2;
-    this.far = Math.max(...robot.chains.map((leg) => Math.hypot(...leg.mount)));
+    this.far = Math.max(...robot.chains.map((leg) => Math.hypot(...leg.mount))) / robot.size;
   }
 
   /** Remember where feet came down. */
@@ -67,10 +68,10 @@ export class Scene {
     const below = turnedBack(G, position);
     const target = [...position];
     const away = camera.follow ? Math.hypot(...add(target, camera.follow, -1)) : Infinity;
-    const lost = away > LOST, share = (slow) => 1 - Math.exp(-view.passed / slow);
+    const lost = away > LOST * this.size, share = (slow) => 1 - Math.exp(-view.passed / slow);
     camera.follow = lost ? target : mix(camera.follow, target, share(CALM));
     camera.heading += (lost ? 1 : share(TURNS)) * (rpy[2] - camera.heading);
-    const rest = turned(G, [below[0], below[1], 0.085]);
+    const rest = turned(G, [below[0], below[1], 0.085 * this.size]);
     const focus = [camera.follow[0], camera.follow[1], rest[2]];
     const narrow = this.width < 560;
     camera.aim(focus, this.width / 2, this.height * (narrow ? 0.52 : 0.53), (narrow ? 1.45 : 1.7) * Math.min(this.height, 0.95 * this.width) / (1 + 1.6 * Math.max(0, this.far - 0.12)));
@@ -103,15 +104,15 @@ export class Scene {
   onGround(x, y, z = 0) { return this.camera.see(turned(this.G, [x, y, z])); }
 
   floor([x, y], look) {
-    const { context: c } = this, count = Math.ceil(REACH / TILE), colour = rgb(look.tile);
-    const [i0, j0] = [Math.round(x / TILE), Math.round(y / TILE)];
+    const { context: c } = this, tile = TILE * Math.round(this.size), reach = REACH * this.size, count = Math.ceil(reach / tile), colour = rgb(look.tile);
+    const [i0, j0] = [Math.round(x / tile), Math.round(y / tile)];
     const rings = Array.from({ length: RINGS }, () => []); // of tiles that fade alike
     for (let i = i0 - count; i < i0 + count; i++) {
       for (let j = j0 - count; j < j0 + count; j++) {
-        const away = Math.hypot((i + 0.5) * TILE - x, (j + 0.5) * TILE - y) / REACH;
+        const away = Math.hypot((i + 0.5) * tile - x, (j + 0.5) * tile - y) / reach;
         if ((i + j) & 1 || away >= 1) continue;
-        const seen = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([u, v]) => this.onGround(u * TILE, v * TILE));
-        if (seen.every((p) => p[2] > 0.08)) rings[Math.floor(RINGS * away)].push(seen);
+        const seen = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([u, v]) => this.onGround(u * tile, v * tile));
+        if (seen.every((p) => p[2] > 0.08 * this.size)) rings[Math.floor(RINGS * away)].push(seen);
       }
     }
     rings.forEach((tiles, ring) => {
@@ -147,7 +148,7 @@ export class Scene {
   }
 
   footprints({ tick, look }) {
-    const { context: c, robot } = this, last = PRINTS / this.loop.data.Ts;
+    const { context: c, robot } = this, last = PRINTS / this.loop.Ts;
     for (const { tick: when, leg, at } of this.prints) {
       const g = turnedBack(this.G, at), radius = 0.9 * robot.footRadius;
       this.path(Array.from({ length: 12 }, (_, m) => this.onGround(g[0] + radius * Math.cos(m * 0.5236), g[1] + radius * Math.sin(m * 0.5236))));
@@ -157,13 +158,13 @@ export class Scene {
   }
 
   shadow(legs, R, position, view) {
-    const { context: c, robot } = this, light = turnedBack(this.G, LIGHT);
+    const { context: c, robot, size } = this, light = turnedBack(this.G, LIGHT);
     const flat = (p) => { const g = turnedBack(this.G, p); return add(g, light, -g[2] / light[2]); };
     const corners = (faces) => faces.flatMap((face) => face.points).map((p) => [add(turned(R, p), position), 0]);
     const shapes = [shadowOf(corners(this.trunk), flat)];
     if (view.payload > 0) shapes.push(shadowOf(corners(this.payload), flat));
     for (const { joints } of legs) {
-      [[0, 1, 0.016, 0.016], [1, 2, 0.014, 0.011], [2, 3, 0.011, robot.footRadius]].forEach(([a, b, ra, rb]) => shapes.push(shadowOf([[joints[a], ra], [joints[b], rb]], flat)));
+      [[0, 1, 0.016 * size, 0.016 * size], [1, 2, 0.014 * size, 0.011 * size], [2, 3, 0.011 * size, robot.footRadius]].forEach(([a, b, ra, rb]) => shapes.push(shadowOf([[joints[a], ra], [joints[b], rb]], flat)));
     }
     c.beginPath();
     for (const shape of shapes) {
@@ -184,7 +185,7 @@ export class Scene {
       c.fillStyle = css(DARK);
       c.fill();
       for (const side of [-0.34, 0.34]) {
-        const [x, y, , size] = at(1.001, side, 0), radius = 0.0085 * size;
+        const [x, y, , scale] = at(1.001, side, 0), radius = 0.0085 * this.size * scale;
         c.beginPath();
         c.ellipse(x, y, radius * Math.max(0.25, Math.abs(dot(turned(R, [1, 0, 0]), camera.ahead))), view.fallen ? 0.2 * radius : radius, 0, 0, 2 * Math.PI);
         c.fillStyle = view.look.eye;
@@ -193,7 +194,7 @@ export class Scene {
     }
     if (view.payload > 0) {
       drawFaces(c, camera, this.payload, R, position, () => rgb(view.look.crate));
-      this.label(camera.see(add(turned(R, add(centre, [0, 0, height / 2 + robot.payload[2] + 0.03])), position)), `${view.payload.toFixed(2)} kg`, view.look);
+      this.label(camera.see(add(turned(R, add(centre, [0, 0, height / 2 + robot.payload[2] + 0.03 * this.size])), position)), `${view.payload.toFixed(2)} kg`, view.look);
     } else if (seen([0, 0, 1], [0, 0, height / 2])) { // an arrow on the top
       c.beginPath();
       for (const [x, y] of [[0.42, 0.5], [0.72, 0], [0.42, -0.5]]) { const [u, v] = at(x, y, 1.002); c.lineTo(u, v); }
@@ -204,21 +205,21 @@ export class Scene {
   }
 
   leg({ k, joints, force, mount }, view, R, position) {
-    const { context: c, camera, robot } = this, colour = rgb(view.look.colours[k]), [base, hip, knee, foot] = joints;
+    const { context: c, camera, robot, size } = this, colour = rgb(view.look.colours[k]), [base, hip, knee, foot] = joints;
     if (Math.abs(mount[1]) > this.half) {
       const inner = add(turned(R, [mount[0], Math.sign(mount[1]) * 0.7 * this.half, mount[2]]), position);
-      drawLimb(c, camera, inner, base, 0.013, 0.013, DARK);
+      drawLimb(c, camera, inner, base, 0.013 * size, 0.013 * size, DARK);
     }
-    drawLimb(c, camera, base, hip, 0.017, 0.016, DARK);
-    drawLimb(c, camera, knee, foot, 0.0115, 0.0065, shade(colour, 1.18));
+    drawLimb(c, camera, base, hip, 0.017 * size, 0.016 * size, DARK);
+    drawLimb(c, camera, knee, foot, 0.0115 * size, 0.0065 * size, shade(colour, 1.18));
     drawBall(c, camera, foot, robot.footRadius, DARK);
-    drawLimb(c, camera, hip, knee, 0.016, 0.0125, colour);
-    drawBall(c, camera, hip, 0.0105, DARK);
-    drawBall(c, camera, knee, 0.0085, DARK);
+    drawLimb(c, camera, hip, knee, 0.016 * size, 0.0125 * size, colour);
+    drawBall(c, camera, hip, 0.0105 * size, DARK);
+    drawBall(c, camera, knee, 0.0085 * size, DARK);
     if (view.off.has(robot.legs[k])) return;
     const load = Math.hypot(...force) / (0.5 * robot.weight);
     if (load < 0.03) return;
-    const tip = add(foot, force, (ARROW / 0.5) / robot.weight), [x0, y0] = camera.see(foot), [x1, y1] = camera.see(tip);
+    const tip = add(foot, force, (size * ARROW / 0.5) / robot.weight), [x0, y0] = camera.see(foot), [x1, y1] = camera.see(tip);
     const length = Math.hypot(x1 - x0, y1 - y0), [u, v] = [(x1 - x0) / length, (y1 - y0) / length], head = Math.min(7, 0.6 * length);
     c.strokeStyle = c.fillStyle = css(rgb(view.look.ink), 0.75);
     c.lineWidth = 2;

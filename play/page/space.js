@@ -60,9 +60,9 @@ export function hull(points) {
   return [...half(sorted), ...half(sorted.reverse())];
 }
 
-/** Looks at a point from a direction and a distance; perspective. */
+/** Looks at a point from a direction and a distance, which counts in sizes of what is seen; perspective. */
 export class Camera {
-  constructor() { Object.assign(this, { azimuth: -1.02, elevation: 0.33, distance: 0.98, heading: 0, focus: [0, 0, 0] }); }
+  constructor() { Object.assign(this, { azimuth: -1.02, elevation: 0.33, distance: 0.98, size: 1, heading: 0, focus: [0, 0, 0] }); }
 
   turn(dx, dy) {
     this.azimuth -= 0.008 * dx;
@@ -77,7 +77,7 @@ export class Camera {
     this.right = [-sa, ca, 0];
     this.up = [-se * ca, -se * sa, ce];
     this.ahead = back.map((v) => -v);
-    this.place = add(focus, back, this.distance);
+    this.place = add(focus, back, this.size * this.distance);
     Object.assign(this, { focus, x, y, scale });
   }
 

@@ -9,7 +9,7 @@ window.apncProbe = () => {
   };
   const walk = (at, seconds) => {
     const watch = new Watch(at.robot, data.tolerance), [x, y] = at.sample, loads = [];
-    for (let n = Math.round(seconds / data.Ts); n > 0; n--) {
+    for (let n = Math.round(seconds / at.Ts); n > 0; n--) {
       at.tick();
       watch.look(at.variable("phi"), at.time);
       loads.push(at.robot.legs.reduce((sum, _, leg) => sum + at.sample[9 + 3 * (5 * at.n + leg) + 2], 0));
@@ -20,7 +20,7 @@ window.apncProbe = () => {
   const walks = Object.fromEntries(Object.entries(WALKS).map(([name, settings]) => {
     const at = made(settings);
     for (let n = 0; n <= TICK; n++) at.tick();
-    return [name, { position: [...at.sample.slice(0, 3)], phi: [...at.variable("phi")] }];
+    return [name, { time: at.time, position: [...at.sample.slice(0, 3)], phi: [...at.variable("phi")] }];
   }));
   const start = { robot: "lilibot", seed: 0, mi: 0.18 }, all = new Set(["RF", "RH", "LF", "LH"]);
   const story = (act, seconds = 8) => {
@@ -33,8 +33,8 @@ window.apncProbe = () => {
   walk(pushed, 6);
   walk(left, 6);
   pushed.push(0, 0.3);
-  walk(pushed, 0.1 + data.Ts);
-  walk(left, 0.1 + data.Ts);
+  walk(pushed, 0.1 + loop.Ts);
+  walk(left, 0.1 + loop.Ts);
   const seen = page.history.csv(data).split("\n");
   const hash = (change) => { change(); return location.hash; };
   const typed = (key) => {

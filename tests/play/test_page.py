@@ -19,16 +19,18 @@ from apnc.loop.columns import columns as columns_of
 from apnc_plant.conditions import Conditions
 from apnc_plant.ground import Obstacles
 from play.build import build
-from play.numbers import SHOWN
+from play.numbers import SHOWN, robot_of
 
 LARGEST = 1.5e6  # [bytes] of the file
-TICK = 300  # at 5 s
+TICK = 300
 WALKS: dict[str, dict[str, Any]] = {
     "lilibot": {"robot": "lilibot", "seed": 0, "mi": 0.18},
     "turning": {"robot": "lilibot", "seed": 4, "mi": 0.1, "turn": 0.4},
     "on bumps": {"robot": "lilibot", "seed": 7, "slope": 3.0, "bumps": 0.5, "load": 0.5},
     "blind": {"robot": "lilibot", "seed": 2, "off": ["RF", "LH"]},
     "hexapod": {"robot": "hexapod", "seed": 1, "mi": 0.15},
+    "solo12": {"robot": "solo12", "seed": 1, "mi": 0.2},
+    "a1, blind": {"robot": "a1", "seed": 2, "mi": 0.2, "off": ["RH"], "load": 0.5},
     **{label: {"robot": "lilibot", "seed": 3, "controller": label} for label in SHOWN},
 }
 
@@ -108,9 +110,10 @@ def test_walk_is_that_of_the_product(name: str, seen: dict[str, Any]) -> None:
         roughness=given.get("bumps", 0.0),
         seed=given["seed"],
     )
+    robot = robot_of(given["robot"])
     record = simulate(
         Experiment(
-            robot=given["robot"],
+            robot=robot,
             controller=given.get("controller", "apnc"),
             seed=given["seed"],
             mi=given.get("mi", 0.08),
@@ -119,11 +122,12 @@ def test_walk_is_that_of_the_product(name: str, seen: dict[str, Any]) -> None:
             conditions=Conditions(
                 payload=given.get("load", 0.0), dropout=tuple(given.get("off", ()))
             ),
-            duration=(TICK + 1) / 60.0,
+            duration=(TICK + 1) * Experiment(robot=robot).Ts,
             engine="compiled",
         )
     )
     walked = seen["walks"][name]
+    assert walked["time"] == pytest.approx(record.time[TICK] + record.experiment.Ts)
     for signal in ("position", "phi"):
         expected = record.signals[signal][TICK]
         np.testing.assert_allclose(walked[signal], expected, rtol=0.0, atol=1e-9)
