@@ -1,4 +1,4 @@
-"""``python -m research.gallery``: import, tune, measure, film, page."""
+"""``python -m research.gallery``: import, tune, measure, fmu, film, page."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from apnc_plant.robot import load_robot
 from apnc_plant.robot.size import mean_leg_length
 from research.docs import DOCS
 from research.docs.manifest import USUAL, note
-from research.gallery import films, page, store
+from research.gallery import films, fmus, page, store
 from research.gallery.measure import FIRST_SEED, Walk, walks
 from research.gallery.robots import GalleryRobot, model_of, robots
 
@@ -83,8 +83,7 @@ def tune(
         if done.returncode != 0 or not target.exists():
             raise ValueError(f"apnc tune of {robot.name} ended with {done.returncode}")
         took = (time.perf_counter() - begin) / 60.0
-        of_search = {"minutes": took, "seed": seed, "command": f"apnc {' '.join(command)}"}
-        store.add_note(output, robot.name, known.get(robot.name, {}) | of_search)
+        store.add_note(output, robot.name, known.get(robot.name, {}) | {"minutes": took})
     for name, about in known.items():
         if "refused" in about:
             store.add_note(output, name, about)
@@ -111,7 +110,8 @@ def measure(
     known = store.notes_in(robots_in)
     with Progress() as progress:
         for robot in chosen:
-            description = load_robot(robots_in / f"{robot.name}.toml")
+            file = robots_in / f"{robot.name}.toml"
+            description = load_robot(file)
             shown = partial(_show, progress, progress.add_task(robot.title))
             found[robot.name] = walks(
                 robot.name, description, seeds, workers,
@@ -122,6 +122,7 @@ def measure(
                 "leg_length": mean_leg_length(description),
                 "rate": description.rate,
                 **known.get(robot.name, {}),
+                **store.search_of(file),
             }
     about["refused"] |= {n: each["refused"] for n, each in known.items() if "refused" in each}
     about["refused"] = {n: why for n, why in about["refused"].items() if n not in found}
@@ -134,6 +135,23 @@ def measure(
     note({USUAL}, store.WALKS, "gallery")
     for robot in chosen:
         say(f"{robot.title}: misses {'; '.join(page.missed(found[robot.name])) or 'nothing'}")
+
+
+@app.command("fmu")
+def write_fmus(
+    robots_in: Robots,
+    output: Annotated[Path, Option(help="Folder for the FMUs.")],
+    only: Only = None,
+) -> None:
+    """Build the FMU of every measured robot and walk it; add that to docs/data/gallery.json."""
+    writable(output)
+    about = store.read_json(store.ABOUT)
+    for robot in _there(robots_in, only):
+        file = robots_in / f"{robot.name}.toml"
+        found = fmus.fmu_of(file, output / f"{robot.name}.fmu")
+        about["robots"][robot.name]["fmu"] = found
+        store.write_json(store.ABOUT, about)
+        say(f"{robot.title}: {found}")
 
 
 @app.command()

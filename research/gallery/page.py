@@ -50,16 +50,14 @@ def missed(found: Sequence[Walk]) -> list[str]:
     return words
 
 
-def row(robot: GalleryRobot, about: Mapping[str, Any], found: Sequence[Walk]) -> dict[str, str]:
-    """Row of a robot that was measured.
+def robot_row(robot: GalleryRobot, about: Mapping[str, Any]) -> dict[str, str]:
+    """Row of a robot: what it is, and how long it was tuned.
 
     Args:
         robot: the robot.
-        about: ``mass`` [kg], ``leg_length`` [m], ``version`` of the package, ``minutes`` of tuning
-            or None.
-        found: its walks.
+        about: ``mass`` [kg], ``leg_length`` [m], ``version`` of the package; ``minutes`` of tuning
+            and number of ``candidates``, if it was tuned.
     """
-    own, mis, speeds = chosen(found, body="own"), _mis(found), _speeds(found)
     minutes = about.get("minutes")
     return {
         "robot": robot.title,
@@ -67,11 +65,32 @@ def row(robot: GalleryRobot, about: Mapping[str, Any], found: Sequence[Walk]) ->
         "leg [m]": f"{about['leg_length']:.2f}",
         "source": f"{robot.kind}, {robot.package} {about['version']}",
         "licence": robot.licence,
-        "tuned [min]": "no" if minutes is None else f"{minutes:.0f}",
+        "tuned [min]": "no" if minutes is None else f"{minutes:.1f}",
+        "candidates": f"{about.get('candidates', '-')}",
+    }
+
+
+def fmu_row(robot: GalleryRobot, fmu: Mapping[str, Any]) -> dict[str, str]:
+    """Row of an FMU, see ``fmu_of``."""
+    return {
+        "robot": robot.title,
+        "size [kB]": f"{fmu['kB']}",
+        "rate [Hz]": f"{fmu['rate']:.1f}",
+        "weight [N]": f"{fmu['weight']:.1f}",
+        "MI to set": f"{fmu['mi']:g}",
+        "walk differs by [m]": f"{fmu['apart']:.1g}",
+    }
+
+
+def walk_row(robot: GalleryRobot, found: Sequence[Walk]) -> dict[str, str]:
+    """Row of the walks of a robot."""
+    own, mis, speeds = chosen(found, body="own"), _mis(found), _speeds(found)
+    return {
+        "robot": robot.title,
         "MI": f"{mis[0]:g} to {mis[-1]:g}",
         **{f"{label} trots": _strict(chosen(own, controller=label))[1] for label in CONTROLLERS},
         **{
-            f"{label}, varied": _strict(chosen(found, body="varied", controller=label))[1]
+            f"margin {label}": _strict(chosen(found, body="varied", controller=label))[1]
             for label in CONTROLLERS
         },
         "speed [m/s]": f"{min(speeds):.2f} to {max(speeds):.2f}",
@@ -93,7 +112,8 @@ def text(
     """
     shown = [robot for robot in robots if robot.name in about["robots"]]
     found = {robot.name: chosen(walks, robot=robot.name) for robot in shown}
-    rows = [row(robot, about["robots"][robot.name], found[robot.name]) for robot in shown]
+    known = {robot.name: about["robots"][robot.name] for robot in shown}
+    fmus = [(robot, known[robot.name]["fmu"]) for robot in shown if "fmu" in known[robot.name]]
     titles = {robot.name: robot.title for robot in robots}
     pictures = [
         f"![Film: {robot.title} walks](../pictures/{films.name}/{robot.name}.webp)"
@@ -106,7 +126,11 @@ def text(
     )
     return template.render(
         about=about, summary=summary(found, titles), films="\n".join(pictures),
-        table=markdown(rows), missed=[(titles[name], missed(own)) for name, own in found.items()],
+        robots=markdown([robot_row(robot, known[robot.name]) for robot in shown]),
+        walks=markdown([walk_row(robot, found[robot.name]) for robot in shown]),
+        missed=[(robot.title, missed(found[robot.name]), robot.why) for robot in shown],
+        fmus=markdown([fmu_row(robot, fmu) for robot, fmu in fmus]) if fmus else "",
+        searches=[each["command"] for each in known.values() if "command" in each],
         tuned=any(tuned), untuned=None if all(tuned) else MI_AIMED,
         apc=round(STRICT["APC"] * about["seeds"]), lift=_percent(LIFT), slip=_percent(SLIP),
         off=f"{100.0 * OFF:.0f} %",

@@ -23,6 +23,7 @@ class GalleryRobot:
         file: the model file, below the folder of the package.
         licence: of the model file.
         pose: about which it walks, see ``import_robot``; the rule's stance if empty.
+        why: it misses aims, in a sentence; empty if it misses none.
     """
 
     name: str
@@ -31,6 +32,7 @@ class GalleryRobot:
     file: str
     licence: str
     pose: str = ""
+    why: str = ""
 
     @property
     def kind(self) -> str:

@@ -6,6 +6,7 @@ import csv
 import gzip
 import io
 import json
+import re
 from collections.abc import Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
@@ -25,6 +26,10 @@ ABOUT: Final = DOCS / "data" / "gallery.json"
 NOTES: Final = "gallery.json"
 """Beside robot files: what is known of each, by name of the robot."""
 
+_TUNED_BY: Final = re.compile(
+    r"^# Tuned by apnc tune (?:.*/)?(\S+)( --candidates (\d+) .*), version"
+)
+
 Notes = dict[str, dict[str, Any]]
 
 
@@ -38,6 +43,18 @@ def notes_in(folder: Path) -> Notes:
 def add_note(folder: Path, name: str, note: dict[str, Any]) -> None:
     """Write what is known of a robot, at once: the next one may take long."""
     write_json(folder / NOTES, notes_in(folder) | {name: note})
+
+
+def search_of(robot_file: Path) -> dict[str, Any]:
+    """What a tuned robot file says of its search: ``command`` that finds it again, ``candidates``.
+
+    Nothing for a file that ``apnc tune`` did not write.
+    """
+    found = _TUNED_BY.match(robot_file.read_text("utf-8"))
+    if found is None:
+        return {}
+    name, options, candidates = found.groups()
+    return {"command": f"apnc tune {name}{options}", "candidates": int(candidates)}
 
 
 def read_json(file: Path) -> Any:

@@ -13,9 +13,15 @@ from research.gallery.measure import Walk
 from research.gallery.robots import GalleryRobot
 
 MIS = (0.1, 0.2)
-DOG = GalleryRobot("dog", "Dog", "kennel", "dog.urdf", "MIT")
+DOG = GalleryRobot("dog", "Dog", "kennel", "dog.urdf", "MIT", why="It is lazy.")
 ABOUT: dict[str, Any] = {
-    "robots": {"dog": {"mass": 12.0, "leg_length": 0.4, "version": "1.2", "minutes": 9.6}},
+    "robots": {
+        "dog": {
+            "mass": 12.0, "leg_length": 0.4, "version": "1.2", "minutes": 9.6, "candidates": 640,
+            "command": "apnc tune dog.toml --candidates 640 --seed 1",
+            "fmu": {"kB": 178, "rate": 41.76, "weight": 117.7, "mi": 0.15, "apart": 0.0},
+        }
+    },
     "refused": {"cat": "its knees bend the other way"},
     "commit": "0123456", "processor": "a processor", "seeds": 20, "first_seed": 7,
 }  # fmt: skip
@@ -75,13 +81,19 @@ def test_the_page_has_a_row_for_a_robot_and_a_line_for_one_that_was_refused(
     cat = replace(DOG, name="cat", title="Cat")
     (tmp_path / "dog.webp").touch()
     text = page.text([DOG, cat], ABOUT, made_up(), tmp_path)
-    row = "| Dog | 12.0 | 0.40 | URDF, kennel 1.2 | MIT | 10 | 0.1 to 0.2 | 40/40 | 40/40 |"
-    assert row in text
+    assert "| Dog | 12.0 | 0.40 | URDF, kennel 1.2 | MIT | 9.6 | 640 |\n" in text
+    assert "| Dog | 0.1 to 0.2 | 40/40 | 40/40 | 40/40 | 40/40 | 0.20 to 0.40 |" in text
+    assert "| Dog | 178 | 41.8 | 117.7 | 0.15 | 0 |\n" in text
+    assert "\napnc tune dog.toml --candidates 640 --seed 1\n" in text
     assert "| 0.20 to 0.40 | 5.0 % | 18.0 % |\n" in text
     assert "- **Dog:** nothing\n" in text
     assert "**1 of 1 robots reach every aim: Dog.**" in text
     assert "- Cat: its knees bend the other way" in text
     assert f"(../pictures/{tmp_path.name}/dog.webp)" in text and "cat.webp" not in text
+    assert "lazy" not in text
+    assert "- **Dog:** slip 19.0 %. It is lazy.\n" in page.text(
+        [DOG, cat], ABOUT, changed(made_up(), 0.1, slip_share=0.19), tmp_path
+    )
     assert "commit 0123456" in text and "| 18 of 20 seeds at every MI |" in text
 
 
@@ -91,6 +103,17 @@ def test_walks_are_stored_and_read_again(tmp_path: Path) -> None:
     assert store.read_walks(tmp_path / "a.csv.gz") == walks
     store.write_walks(tmp_path / "b.csv.gz", walks)
     assert (tmp_path / "a.csv.gz").read_bytes() == (tmp_path / "b.csv.gz").read_bytes()
+
+
+def test_a_tuned_file_tells_its_search(tmp_path: Path) -> None:
+    file = tmp_path / "dog.toml"
+    by = "apnc tune read/dog.toml --candidates 96 --seed 1"
+    file.write_text(f"# Tuned by {by}, version 0.1.0.\n\nname = 'dog'\n")
+    assert store.search_of(file) == {
+        "command": "apnc tune dog.toml --candidates 96 --seed 1", "candidates": 96
+    }  # fmt: skip
+    file.write_text("# Imported from dog.urdf.\n")
+    assert store.search_of(file) == {}
 
 
 def test_notes_of_a_robot_leave_the_others(tmp_path: Path) -> None:
