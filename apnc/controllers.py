@@ -6,7 +6,7 @@ at its best on this robot, found by the study ``gains``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
@@ -60,7 +60,7 @@ CONTROLLERS: Final[Mapping[str, Controller]] = {
     "tegotae": Controller("tegotae", "Tegotae", _authors_gain(0.03), _IN_CONDITIONS | _VARIED),
     "tegotae_best": Controller("tegotae", "Tegotae (best)", {"gamma_tegotae": 0.15}),
     "phase_reset": Controller("phase_reset", "phase resetting", {"grf_reset": 0.4}, _VARIED),
-    "phase_reset_best": Controller("phase_reset", "phase resetting (best)", {"grf_reset": 0.2}),
+    "phase_reset_best": Controller("phase_reset", "phase resetting (best)", {"grf_reset": 0.6}),
     "apnc_kept": Controller("apnc", "APNC, feedback kept", {"feedback_kept": 1.0}),
     "apnc_printed": Controller("apnc", "APNC, printed rates", _printed("B_f", "B_s")),
 }
@@ -76,6 +76,18 @@ BASELINES: Final = (*TEGOTAE, *PHASE_RESET)
 
 ALL: Final = ("apnc", *BASELINES)
 """What the paper compares, the baselines at both settings."""
+
+
+def distinct(labels: Sequence[str], study: str) -> tuple[str, ...]:
+    """Labels without those that in a study are the same controller as an earlier one.
+
+    Where the paper's setting of a baseline is also its best, the baseline is there once.
+    """
+    found: dict[tuple[str, tuple[tuple[str, float], ...]], str] = {}
+    for label in labels:
+        used = named_controller(label)
+        found.setdefault((used.method, tuple(sorted(used.settings_in(study).items()))), label)
+    return tuple(found.values())
 
 
 def named_controller(label: str) -> Controller:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from apnc.controllers import BASELINES, CONTROLLERS, named_controller
+from apnc.controllers import ALL, BASELINES, CONTROLLERS, distinct, named_controller
 from apnc.studies import gains
 from apnc.studies.results import AUTHORS, Result, cells_in, matching
 from apnc_core.enumerations import Method
@@ -37,6 +37,14 @@ def test_the_other_settings_are_the_same_in_every_study() -> None:
         )
     for label in ("tegotae_best", "phase_reset_best"):
         assert named_controller(label).settings and not named_controller(label).in_study
+
+
+def test_a_baseline_whose_two_settings_are_one_is_compared_once() -> None:
+    both = [CONTROLLERS[label].settings_in("damage") for label in ("tegotae", "tegotae_best")]
+    assert both[0] == both[1] == {"gamma_tegotae": 0.15}
+    left = ("apnc", "tegotae", "phase_reset", "phase_reset_best")
+    assert distinct(ALL, "damage") == left and distinct(ALL, "mi") == ALL
+    assert distinct(("apnc", "apc"), "mi") == ("apnc", "apc")  # two methods without settings
 
 
 def test_labels_stand_for_methods_of_the_fmu() -> None:

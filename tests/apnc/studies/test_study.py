@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from apnc.controllers import ALL, BASELINES, named_controller
+from apnc.controllers import ALL, BASELINES, distinct, named_controller
 from apnc.loop.schedule import parse_schedule, steps_of
 from apnc.studies import gains
 from apnc.studies.registry import STUDIES, names_of
@@ -36,9 +36,9 @@ def of(name: str, **cell: Any) -> list[Trial]:
         ("mi", 13, 7, ("apnc", "apc", *BASELINES), 45.0),
         ("rate", 8, 5, ALL, 60.0),
         ("terrain", 7, 5, ALL, 45.0),
-        ("conditions", 4, 4, ALL, 45.0),
-        ("damage", 1, 1, ALL, 45.0),
-        ("states", 1, 1, ("apnc", "apc", *BASELINES, "apnc_kept"), 34.0),
+        ("conditions", 4, 4, distinct(ALL, "conditions"), 45.0),
+        ("damage", 1, 1, distinct(ALL, "damage"), 45.0),
+        ("states", 1, 1, ("apnc", "apc", *distinct(BASELINES, "states"), "apnc_kept"), 34.0),
     ],
 )
 def test_apnc_walks_every_cell_and_the_others_fewer_with_half_of_the_seeds(
