@@ -76,8 +76,8 @@ CHANGES: Final[Mapping[str, Change]] = {
     "5 mm further ahead": _shifted(ahead=0.005),
     "5 mm further back": _shifted(ahead=-0.005),
     "25 g from each tibia to its femur": _lighter_tibiae(0.025),
-    "sensor delay x 0.7": _times("sensor.delay", 0.7),
-    "sensor delay x 1.5": _times("sensor.delay", 1.5),
+    "sensor delay 4 ms": _set("sensor.delay", 0.004),
+    "sensor delay 8 ms": _set("sensor.delay", 0.008),
     "sensor noise x 3": _times("sensor.noise", 3.0),
     "sensor shows the norm": _set("sensor.component", "norm"),
 }

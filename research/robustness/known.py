@@ -168,7 +168,8 @@ KNOWN: Final = {
         _times("contact.friction_speed"), 0.5, 2.0, "numerical: there is no sticking"
     ),
     "delay of the sensors": Known(
-        _times("sensor.delay"), 0.0, 5.0, "sensor, bus and computer, 0 to 40 ms"
+        _more("sensor.delay", _MS), 0.0, 40.0, "sensor, bus and computer", "ms", 100.0,
+        only_above=True,
     ),
     "filter of the sensors": Known(
         _times("sensor.time_constant"), 0.9, 1.1, "published in the authors' code"

@@ -149,7 +149,7 @@ def test_conditions_of_the_paper_fit_the_robot() -> None:
     assert set(CONDITIONS) == {"C1", "C2", "C3", "C4", "S1", "S2", "S3"}
     assert named_conditions("C1", ROBOT) == Conditions()
     assert set(paper_conditions(ROBOT)) == set(CONDITIONS)
-    with pytest.raises(ValueError, match=r"^conditions 'C5' are not one of C1, .*, S2, S3$"):
+    with pytest.raises(ValueError, match=r"^'C5' is not one of C1, .*, S2, S3$"):
         named_conditions("C5", ROBOT)
 
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from plain_robot import plain_robot
 from plants import Kind, in_both
 from scipy.spatial.transform import Rotation
 
@@ -15,12 +16,12 @@ from apnc_plant.ground import Ground, GroundInC, Kerb, Plane
 from apnc_plant.library import library
 from apnc_plant.numbers import robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot import RobotDescription, load_robot
+from apnc_plant.robot import RobotDescription
 from apnc_plant.signals import PlantError
 from exudyn_models.plant import ExudynPlant
 
 TICK = 1 / 60
-ROBOT = load_robot("lilibot")
+ROBOT = plain_robot()
 ZERO = np.zeros(4)
 
 

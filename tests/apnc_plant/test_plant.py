@@ -11,6 +11,7 @@ from plain_robot import plain_text
 from plants import AnyPlant, Kind, in_both
 from unchecked import any_step
 
+from apnc_core.interface import Parameters
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
 from apnc_plant.signals import PLANT_SIGNALS, PlantError
@@ -19,6 +20,7 @@ from apnc_plant.step import own_step
 TICK = 1 / 60
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
 ROBOT = load_robot("lilibot")
+DEFAULT = Parameters()
 
 
 def stand(kind: Kind, robot: RobotDescription, seconds: float = 2.0) -> AnyPlant:
@@ -30,8 +32,8 @@ def stand(kind: Kind, robot: RobotDescription, seconds: float = 2.0) -> AnyPlant
 
 def trot(plant: AnyPlant, tick: int, duration: float = TICK) -> None:
     phase = 0.12 * tick
-    hip = 0.13 * np.sin(phase) * DIAGONAL - 0.111
-    knee = 0.08 * np.cos(phase) * DIAGONAL - 0.039
+    hip = 0.13 * np.sin(phase) * DIAGONAL + DEFAULT.b1
+    knee = 0.08 * np.cos(phase) * DIAGONAL + DEFAULT.b2
     plant.advance(hip, knee, duration)
 
 

@@ -19,6 +19,7 @@ from fmu_slave import SCALARS, slave
 from lxml import etree
 
 from apnc_core.enumerations import Method
+from apnc_core.interface import Parameters
 from apnc_core.schema import Causality, Type
 from build_fmu.build import cached_fmu, fmu_bytes
 from build_fmu.options import BuildOptions, host_platform
@@ -77,7 +78,8 @@ def test_libcosim_sets_enumerations_that_were_built_as_integers(tmp_path: Path) 
     reference = {v.name.decode(): v.reference for v in execution.slave_variables(index)}
     execution.integer_initial_value(index, reference["method"], Method.tegotae.value)
     assert execution.step()
-    assert observer.last_real_values(index, [reference["leg[1].gamma"]]) == [0.03]
+    gain = [Parameters().gamma_tegotae]
+    assert observer.last_real_values(index, [reference["leg[1].gamma"]]) == gain
 
 
 @dataclass(frozen=True)

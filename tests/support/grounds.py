@@ -17,7 +17,7 @@ WALKED: Final[tuple[Ground, ...]] = (
     Plane(),
     Plane(slope=0.1),
     Obstacles(roughness=0.5, seed=3),
-    Kerb(at=0.25, height=0.006, length=0.2),
+    Kerb(at=0.2, height=0.006, length=0.2),
     Waves(),
 )
 """Every robot that ships walks over what is uneven in ten seconds, and does not fall."""
