@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -18,38 +20,38 @@ from apnc.studies.table import markdown, middle
 from apnc_core.schema import Causality
 from apnc_core.settings import SettingLike
 from apnc_core.variables import variables_of as variables
+from apnc_plant.robot import RobotDescription, load_robot
 from research.command import main
 from research.registry import STUDIES
-
-TOGETHER: Final = (
-    ("a2",), ("b1", "b2"), ("B_f", "B_s"), ("o1_start", "o2_start"), ("xi",), ("feedback_kept",),
-    ("phase_measure",), ("phase_filter",), ("kappa_rule",), ("coupling_sign",), ("phi_frozen",),
-    ("MI_zero_resets",),
-)  # fmt: skip
-"""Parameters that differ from the paper or the authors' code, in groups that belong together."""
 
 PRINTED: Final[Mapping[str, SettingLike]] = {
     v.name: v.paper
     for v in variables(Causality.parameter)
     if v.paper is not None and v.paper != v.start
 }
+"""Parameters that differ from the paper or the authors' code."""
+
+ADDED: Final[Mapping[str, SettingLike]] = {"kappa_hold": 1}
+"""Parameters that the paper does not have, at the value at which they do nothing."""
 
 NONE: Final = "none"
+POSE: Final = "femur_angle, tibia_angle"
+PUBLISHED_POSE: Final = (43.0, 92.0)
+"""Reference pose of the authors' robot data, the same for every leg [deg]."""
 
 REMOVED: Final[Mapping[str, Mapping[str, SettingLike]]] = {
     NONE: {},
-    **{
-        ", ".join(own): {name: PRINTED[name] for name in own}
-        for names in TOGETHER
-        if (own := [name for name in names if name in PRINTED])
-    },
+    POSE: {},
+    **{name: {name: value} for name, value in {**PRINTED, **ADDED}.items()},
 }
-"""Parameters as printed, by the departure that is taken back."""
+"""Parameters as printed, by the departure that is taken back. ``POSE`` is one of the robot."""
 
 WALKS: Final[Mapping[str, Mapping[str, Any]]] = {
+    "MI 0.04": {"mi": 0.04},
     "MI 0.08": {"mi": 0.08},
     "MI 0.15": {"mi": 0.15},
     "MI 0.28": {"mi": 0.28},
+    "MI 0.4": {"mi": 0.4},
     "C4": {"mi": WALK_MI, "conditions": "C4"},
     "C3": {"mi": SCHEDULE_MI, "conditions": "C3"},
 }
@@ -63,10 +65,19 @@ WALK_S: Final = 25.0
 
 def experiment(controller: str, seed: int, removed: str, task: str) -> Experiment:
     """A walk, or the run through the states S1 to S3, with one departure taken back."""
+    own: dict[str, Any] = {"settings": REMOVED[removed]}
+    if removed == POSE:
+        own["robot"] = posed(load_robot("lilibot"))
     if task == STATES:
-        return TIMELINE.experiment(controller, seed, settings=REMOVED[removed])
-    walk: dict[str, Any] = {"controller": controller, "seed": seed, "settings": REMOVED[removed]}
-    return Experiment(duration=WALK_S, **walk, **WALKS[task])
+        return TIMELINE.experiment(controller, seed, **own)
+    return Experiment(duration=WALK_S, controller=controller, seed=seed, **own, **WALKS[task])
+
+
+def posed(robot: RobotDescription) -> RobotDescription:
+    """The robot with the published reference pose."""
+    femur, tibia = map(math.radians, PUBLISHED_POSE)
+    legs = (replace(leg, femur_angle=femur, tibia_angle=tibia) for leg in robot.legs)
+    return replace(robot, legs=tuple(legs))
 
 
 def measure(record: Record) -> Result:
@@ -96,8 +107,7 @@ def _in_order(results: Sequence[Result]) -> list[str]:
 
 
 def _line(removed: str, results: Sequence[Result]) -> dict[str, str]:
-    names = REMOVED[removed]
-    entries = {"as printed": ", ".join(f"{n} = {_text(v)}" for n, v in names.items()) or NONE}
+    entries = {"as printed": _words(removed)}
     for task in WALKS:
         hits = successes(matching(results, task=task))
         entries[f"trot, {task}"] = f"{sum(hits)}/{len(hits)}"
@@ -111,8 +121,11 @@ def _line(removed: str, results: Sequence[Result]) -> dict[str, str]:
     return entries
 
 
-def _text(value: SettingLike) -> str:
-    return str(getattr(value, "name", value))
+def _words(removed: str) -> str:
+    if removed == POSE:
+        return f"{POSE} = {', '.join(f'{angle:g}' for angle in PUBLISHED_POSE)} deg"
+    names = REMOVED[removed]
+    return ", ".join(f"{n} = {getattr(v, 'name', v)}" for n, v in names.items()) or NONE
 
 
 STUDY: Final = Study(

@@ -72,12 +72,12 @@ CHANGES: Final[Mapping[str, Change]] = {
     "servo latency 5 ms": _set("servo.latency", 0.005),
     "servo latency 16.7 ms": _set("servo.latency", 1 / 60),
     "trunk's centre of mass 10 mm higher": _shifted(up=0.010),
-    "10 mm lower": _shifted(up=-0.010),
+    "10 mm lower, 10 mm below the trunk": _shifted(up=-0.010),
     "5 mm further ahead": _shifted(ahead=0.005),
     "5 mm further back": _shifted(ahead=-0.005),
     "25 g from each tibia to its femur": _lighter_tibiae(0.025),
-    "sensor delay 4 ms": _set("sensor.delay", 0.004),
     "sensor delay 8 ms": _set("sensor.delay", 0.008),
+    "sensor delay 16.7 ms": _set("sensor.delay", 1 / 60),
     "sensor noise x 3": _times("sensor.noise", 3.0),
     "sensor shows the norm": _set("sensor.component", "norm"),
 }
@@ -87,8 +87,8 @@ CHANGES: Final[Mapping[str, Change]] = {
 OVER_MI: Final = ("nothing", SOFT)
 """Changes that walk at all MI. Does the duty factor rise with MI, as in the paper?"""
 
-MI_VALUES: Final = (0.08, 0.12, 0.16, 0.2, 0.24, 0.28)
-USUAL_MI: Final = (0.08, 0.16)
+MI_VALUES: Final = (0.04, 0.08, 0.16, 0.24, 0.32, 0.4)
+USUAL_MI: Final = (0.04, 0.16, 0.4)
 DUTY: Final = "duty_factor_mean"
 
 

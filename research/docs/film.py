@@ -1,6 +1,6 @@
 """Films and picture sheets of how the feet move: ``film-mi-*.gif`` and ``feet-mi-*.png``.
 
-python -m research.docs.film docs/pictures              # MI 0.08, 0.15, 0.28 and 0.4
+python -m research.docs.film docs/pictures              # MI 0.04, 0.08, 0.15, 0.28 and 0.4
 python -m research.docs.film docs/pictures 0.1 0.2      # others
 """
 
@@ -33,7 +33,7 @@ PICTURES: Final = DOCS / "pictures"
 Box = tuple[float, float, float, float]
 """Left, top, width and height [px]."""
 
-MI: Final = (0.08, 0.15, 0.28, 0.4)
+MI: Final = (0.04, 0.08, 0.15, 0.28, 0.4)
 DURATION: Final = 30.0
 STEADY: Final = 12.0
 """From here on [s] the walk counts as steady; everything shown and told is from then on."""

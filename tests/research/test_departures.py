@@ -10,21 +10,27 @@ from records import synthetic_record
 
 from apnc.studies.runner import grid_of
 from apnc.studies.states.timeline import TIMELINE
+from apnc_plant.robot import load_robot
 from research import departures
-from research.departures import NONE, PRINTED, REMOVED, STATES
+from research.departures import ADDED, NONE, POSE, PRINTED, REMOVED, STATES
 from research.registry import STUDIES
 
 
 def test_every_departure_of_the_table_is_taken_back_once() -> None:
     taken = [name for names in REMOVED.values() for name in names]
-    assert sorted(taken) == sorted(PRINTED)
+    assert sorted(taken) == sorted([*PRINTED, *ADDED])
 
 
 def test_trials_differ_in_what_is_taken_back_alone() -> None:
+    printed = {**PRINTED, **ADDED}
     for trial in grid_of("departures", 1, studies=STUDIES):
         settings = trial.experiment.settings
         assert dict(settings) == dict(REMOVED[trial.cell["removed"]])
-        assert all(settings[name] == PRINTED[name] for name in settings)
+        assert all(settings[name] == printed[name] for name in settings)
+        if trial.cell["removed"] == POSE:
+            assert trial.experiment.robot == departures.posed(load_robot("lilibot"))
+        else:
+            assert trial.experiment.robot == "lilibot"
         if trial.cell["task"] == STATES:
             assert trial.experiment.mi == TIMELINE.experiment("apnc", 0).mi
         else:
@@ -65,8 +71,14 @@ def test_the_table_counts_trots_and_states() -> None:
     results = made_up(axes, figures, controllers=("apnc",), study="departures")
     lines = departures.table(results).splitlines()[2:]
     assert lines[0].startswith(
-        f"| {NONE} | 6/6 | 6/6 | 6/6 | 6/6 | 6/6 | 0.100 (0.100 ... 0.100) |"
+        f"| {NONE} | 6/6 | 6/6 | 6/6 | 6/6 | 6/6 | 6/6 | 6/6 | 0.100 (0.100 ... 0.100) |"
     )
     assert lines[0].endswith("| 6/6 | 6/6 | 0/6 | 6/6 |")
-    assert "| 5/6 | 5/6 | 5/6 | 5/6 | 5/6 |" in lines[1]
+    assert "| 5/6 | 5/6 | 5/6 | 5/6 | 5/6 | 5/6 | 5/6 |" in lines[1]
     assert lines[1].endswith("| 6/6 | 5/6 | 0/6 | 5/6 |")
+
+
+def test_the_published_pose_is_that_of_the_authors_and_of_every_leg() -> None:
+    posed = departures.posed(load_robot("lilibot"))
+    for leg in posed.legs:
+        assert (leg.femur_angle, leg.tibia_angle) == pytest.approx((0.7505, 1.6057), abs=1e-4)
