@@ -10,6 +10,13 @@ STUDIES: Final[Registry] = {
     entry.name: entry
     for entry in (
         Entry("symmetry", "Equal loads", "4.1.1", ("mi",), "research"),
+        Entry(
+            "duty",
+            "Bodies with a larger duty factor",
+            "",
+            ("mi", "lag", "foot", "a1", "a2"),
+            "research",
+        ),
         Entry("departures", "Departures taken back", "", ("removed", "task"), "research"),
         Entry("sensitivity", "Numbers of the robot", "", ("change", "mi"), "research"),
         Entry("forward_model", "Forward models", "", ("model", "mi"), "research"),
