@@ -122,7 +122,7 @@ def measure(
                 "leg_length": mean_leg_length(description),
                 "rate": description.rate,
                 **known.get(robot.name, {}),
-                **store.search_of(file),
+                **store.searches_of(file),
             }
     about["refused"] |= {n: each["refused"] for n, each in known.items() if "refused" in each}
     about["refused"] = {n: why for n, why in about["refused"].items() if n not in found}
@@ -132,7 +132,7 @@ def measure(
     names = [robot.name for robot in robots()]
     store.write_walks(store.WALKS, [walk for name in names for walk in found.get(name, [])])
     store.write_json(store.ABOUT, about)
-    note({USUAL}, store.WALKS, "gallery")
+    note({USUAL}, store.WALKS, "gallery", at=about["commit"])
     for robot in chosen:
         say(f"{robot.title}: misses {'; '.join(page.missed(found[robot.name])) or 'nothing'}")
 

@@ -130,7 +130,7 @@ def text(
         walks=markdown([walk_row(robot, found[robot.name]) for robot in shown]),
         missed=[(robot.title, missed(found[robot.name]), robot.why) for robot in shown],
         fmus=markdown([fmu_row(robot, fmu) for robot, fmu in fmus]) if fmus else "",
-        searches=[each["command"] for each in known.values() if "command" in each],
+        searches=[line for each in known.values() for line in each.get("commands", ())],
         tuned=any(tuned), untuned=None if all(tuned) else MI_AIMED,
         apc=round(STRICT["APC"] * about["seeds"]), lift=_percent(LIFT), slip=_percent(SLIP),
         off=f"{100.0 * OFF:.0f} %",

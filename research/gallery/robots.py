@@ -23,7 +23,8 @@ class GalleryRobot:
         file: the model file, below the folder of the package.
         licence: of the model file.
         pose: about which it walks, see ``import_robot``; the rule's stance if empty.
-        why: it misses aims, in a sentence; empty if it misses none.
+        why: it misses aims, in sentences of which the last has no full stop; empty if it misses
+            none.
     """
 
     name: str

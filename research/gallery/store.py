@@ -27,7 +27,7 @@ NOTES: Final = "gallery.json"
 """Beside robot files: what is known of each, by name of the robot."""
 
 _TUNED_BY: Final = re.compile(
-    r"^# Tuned by apnc tune (?:.*/)?(\S+)( --candidates (\d+) .*), version"
+    r"^# Tuned by apnc tune (?:\S*/)?(\S+)( --candidates (\d+) .*), version", re.MULTILINE
 )
 
 Notes = dict[str, dict[str, Any]]
@@ -45,16 +45,21 @@ def add_note(folder: Path, name: str, note: dict[str, Any]) -> None:
     write_json(folder / NOTES, notes_in(folder) | {name: note})
 
 
-def search_of(robot_file: Path) -> dict[str, Any]:
-    """What a tuned robot file says of its search: ``command`` that finds it again, ``candidates``.
+def searches_of(robot_file: Path) -> dict[str, Any]:
+    """What a tuned robot file says of its searches.
 
-    Nothing for a file that ``apnc tune`` did not write.
+    Returns:
+        ``commands`` that find it again, one after the other, and how many ``candidates`` they try;
+        nothing for a file that ``apnc tune`` did not write.
     """
-    found = _TUNED_BY.match(robot_file.read_text("utf-8"))
-    if found is None:
+    # a search that began with a tuned file has written its line above that of the one before
+    found = _TUNED_BY.findall(robot_file.read_text("utf-8"))[::-1]
+    if not found:
         return {}
-    name, options, candidates = found.groups()
-    return {"command": f"apnc tune {name}{options}", "candidates": int(candidates)}
+    commands = [f"apnc tune {name}{options}" for name, options, _ in found]
+    for index, (name, _, _) in enumerate(found[1:]):
+        commands[index] += f" --output {name}"
+    return {"commands": commands, "candidates": sum(int(count) for *_, count in found)}
 
 
 def read_json(file: Path) -> Any:

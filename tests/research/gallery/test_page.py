@@ -13,12 +13,12 @@ from research.gallery.measure import Walk
 from research.gallery.robots import GalleryRobot
 
 MIS = (0.1, 0.2)
-DOG = GalleryRobot("dog", "Dog", "kennel", "dog.urdf", "MIT", why="It is lazy.")
+DOG = GalleryRobot("dog", "Dog", "kennel", "dog.urdf", "MIT", why="It is lazy")
 ABOUT: dict[str, Any] = {
     "robots": {
         "dog": {
             "mass": 12.0, "leg_length": 0.4, "version": "1.2", "minutes": 9.6, "candidates": 640,
-            "command": "apnc tune dog.toml --candidates 640 --seed 1",
+            "commands": ["apnc tune dog.toml --candidates 640 --seed 1"],
             "fmu": {"kB": 178, "rate": 41.76, "weight": 117.7, "mi": 0.15, "apart": 0.0},
         }
     },
@@ -105,15 +105,26 @@ def test_walks_are_stored_and_read_again(tmp_path: Path) -> None:
     assert (tmp_path / "a.csv.gz").read_bytes() == (tmp_path / "b.csv.gz").read_bytes()
 
 
-def test_a_tuned_file_tells_its_search(tmp_path: Path) -> None:
-    file = tmp_path / "dog.toml"
-    by = "apnc tune read/dog.toml --candidates 96 --seed 1"
-    file.write_text(f"# Tuned by {by}, version 0.1.0.\n\nname = 'dog'\n")
-    assert store.search_of(file) == {
-        "command": "apnc tune dog.toml --candidates 96 --seed 1", "candidates": 96
+def test_a_tuned_file_tells_its_searches(tmp_path: Path) -> None:
+    file, first = tmp_path / "dog.toml", "# Imported from dog.urdf.\n"
+    file.write_text(first)
+    assert store.searches_of(file) == {}
+    first = (
+        f"# Tuned by apnc tune read/dog.toml --candidates 96 --seed 1, version 0.1.0.\n\n{first}"
+    )
+    file.write_text(first)
+    assert store.searches_of(file) == {
+        "commands": ["apnc tune dog.toml --candidates 96 --seed 1"], "candidates": 96
     }  # fmt: skip
-    file.write_text("# Imported from dog.urdf.\n")
-    assert store.search_of(file) == {}
+    second = "# Tuned by apnc tune pup.toml --candidates 32 --seed 1 --near, version 0.1.0.\n\n"
+    file.write_text(second + first)
+    assert store.searches_of(file) == {
+        "commands": [
+            "apnc tune dog.toml --candidates 96 --seed 1 --output pup.toml",
+            "apnc tune pup.toml --candidates 32 --seed 1 --near",
+        ],
+        "candidates": 128,
+    }
 
 
 def test_notes_of_a_robot_leave_the_others(tmp_path: Path) -> None:
