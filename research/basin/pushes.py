@@ -80,11 +80,12 @@ def measure(record: Record) -> Result:
     found: Result = {"impulse": math.hypot(push.x, push.y), "in_gait": False, "returned_s": None}
     if target is None or len(record.time) == 0:
         return found
-    error = metrics.phase_error(record.signals["o1"], record.signals["o2"], target)
-    near = error <= metrics.STRICT_TOLERANCE
-    time = record.time
-    before = (time >= push.at - 1.0) & (time < push.at)
-    found["in_gait"] = bool(before.any() and near[before].all())
+    o1, o2, time = record.signals["o1"], record.signals["o2"], record.time
+    near = metrics.phase_error(o1, o2, target) <= metrics.STRICT_TOLERANCE
+    pushed = int(np.searchsorted(time, push.at))
+    # phases are smoothed over samples to both sides, so those from the push on are left out
+    error = metrics.phase_error(o1[:pushed], o2[:pushed], target)[time[:pushed] >= push.at - 1.0]
+    found["in_gait"] = bool(len(error) and (error <= metrics.STRICT_TOLERANCE).all())
     after = np.flatnonzero((time >= push.at) & ~near)
     back = max(float(time[after[-1]]) - push.at, 0.0) if len(after) else 0.0
     held = time[-1] - push.at - back >= STRICT_HOLD

@@ -30,11 +30,16 @@ def record() -> Record:
     return simulate(Experiment(duration=12.0, mi=0.15, engine="compiled"))
 
 
-def shown(record: Record, lost: tuple[float, float], **fields: Any) -> dict[str, Any]:
-    """Measures of a robot in its gait but for an interval; it is pushed at 4 s."""
+def shown(
+    record: Record, lost: tuple[float, float], *, left: float = np.pi, **fields: Any
+) -> dict[str, Any]:
+    """Measures of a robot in its gait but for an interval; it is pushed at 4 s.
+
+    ``left`` is how far two legs are off the gait in the interval [rad].
+    """
     time = record.time
     out = (time >= lost[0]) & (time < lost[1])
-    relative = np.where(out[:, np.newaxis], 0.0, np.array([0.0, np.pi, np.pi, 0.0]))
+    relative = np.array([0.0, np.pi, np.pi, 0.0]) - out[:, np.newaxis] * [0.0, left, left, 0.0]
     angle = 2.0 * np.pi * 1.5 * time[:, np.newaxis] + relative
     signals = {**record.signals, "o1": np.cos(angle), "o2": -np.sin(angle)}
     experiment = replace(record.experiment, pushes=(Push(4.0, 0.0, 0.6),))
@@ -49,6 +54,12 @@ def test_a_push_is_forgotten_if_the_gait_is_back_for_good(record: Record) -> Non
     assert shown(record, (4.5, 12.0))["returned_s"] is None
     assert not shown(record, (2.5, 3.5))["in_gait"]
     assert shown(record, (4.5, 7.0), end="fell")["returned_s"] is None
+
+
+def test_what_follows_a_push_does_not_say_that_there_was_no_gait_before(record: Record) -> None:
+    found = shown(record, (4.0, 7.0), left=2.0)
+    assert found["in_gait"] and found["returned_s"] == pytest.approx(3.0, abs=0.6)
+    assert not shown(record, (3.5, 7.0), left=2.0)["in_gait"]
 
 
 def row(froude: float, returned: int, direction: int = 0, pushed: int = 10) -> dict[str, Any]:
