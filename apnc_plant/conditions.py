@@ -146,7 +146,7 @@ CONDITIONS: Final[Mapping[str, PaperCondition]] = MappingProxyType(
         "C2": PaperCondition(grf_noise=NOISE),
         "C3": PaperCondition(damaged=("right front",)),
         "C4": PaperCondition(payload=PAYLOAD),
-        "S1": PaperCondition(held_at=0.02),
+        "S1": PaperCondition(held_at=0.03),
         "S2": PaperCondition(stuck=Frozen({"right front": 0.9, "left front": 0.9})),
         "S3": PaperCondition(dropout=(ALL,)),
     }

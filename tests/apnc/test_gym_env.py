@@ -142,7 +142,7 @@ def test_an_agent_on_the_loads_changes_what_the_controller_sees() -> None:
 
 
 def test_a_fall_ends_the_episode_and_costs() -> None:
-    steep = replace(SHORT, duration=9.0, ground=apnc.Plane(slope=math.radians(60)))
+    steep = replace(SHORT, duration=9.0, ground=apnc.Plane(slope=math.radians(60)), conditions="C4")
     env = made(experiment=steep)
     seen = walked(env, 0, np.array([0.08, 0.0], np.float32))
     _, reward, terminated, truncated, info = seen[-1]

@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from grounds import TOUCHED
+from plain_robot import plain_robot
 
 from apnc_plant.coordinates import BASE
 from apnc_plant.forces import RobotForces
 from apnc_plant.ground import Ground, Obstacles, Plane
 from apnc_plant.ground.obstacles import TILE
-from apnc_plant.robot import load_robot
 from exudyn_models.plant import ExudynPlant
 
-ROBOT = load_robot("lilibot")
+ROBOT = plain_robot()
 UP = (0.0, 0.0, 1.0)
 
 

@@ -15,6 +15,7 @@ from fmpy.validation import validate_fmu
 from lxml import etree
 
 from apnc_core.enumerations import Method
+from apnc_core.interface import Parameters
 from apnc_core.presets import preset
 from apnc_core.schema import Causality, Type
 from apnc_core.variables import scalars
@@ -123,7 +124,7 @@ def test_enumerations_as_integers_take_the_same_calls(tmp_path: Path) -> None:
             output=["leg[1].theta_hip", "leg[1].gamma"],
         )
         theta.append(result["leg[1].theta_hip"])
-        assert result["leg[1].gamma"][-1] == 0.03
+        assert result["leg[1].gamma"][-1] == Parameters().gamma_tegotae
     np.testing.assert_array_equal(*theta)
 
 

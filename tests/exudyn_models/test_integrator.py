@@ -14,15 +14,15 @@ from typing import Any
 import numpy as np
 import pytest
 from exudyn_feet import MarkedPlant
+from plain_robot import plain_robot
 
 from apnc_plant.options import PlantOptions
-from apnc_plant.robot import load_robot
 from apnc_plant.step import own_step
 from exudyn_models.engine import exu, items
 from exudyn_models.plant import ExudynPlant, _solver_settings
 
 TICK = 1 / 60
-ROBOT = load_robot("lilibot")
+ROBOT = plain_robot()
 STEP = own_step(ROBOT)
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
 

@@ -57,7 +57,7 @@ def test_a_study_writes_what_those_of_the_product_write_and_goes_on(tmp_path: Pa
 def test_a_mistake_is_one_line_that_names_the_program() -> None:
     done = run("contact", "--steps", "9")
     assert done.returncode == 2
-    assert done.stderr.startswith("python -m research.contact: steps '9' is not one of 8, 16")
+    assert done.stderr.startswith("python -m research.contact: steps '9' is not one of 12, 24")
     assert len(done.stderr.strip().splitlines()) == 1
 
 

@@ -12,15 +12,15 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 from compilers import run, tool
+from plain_robot import plain_robot
 from plants import Kind, in_both
 
 import apnc
 from apnc_plant.compiled import CompiledPlant
 from apnc_plant.ground import Ground, GroundInC, Numbers, Plane
-from apnc_plant.robot import load_robot
 
 TICK = 1 / 60
-ROBOT = load_robot("lilibot")
+ROBOT = plain_robot()
 RADIUS = ROBOT.contact.foot_radius
 
 
@@ -105,7 +105,8 @@ def test_a_touch_of_its_own_counts_in_a_ground_that_c_knows_too() -> None:
     height = CompiledPlant(ROBOT, ground=Higher()).sample()["position"][2]
     assert height == pytest.approx(CompiledPlant(ROBOT).sample()["position"][2] + 0.001, abs=1e-12)
     assert len(Higher().contacts((0.0, 0.0, RADIUS + 0.0005), RADIUS)) == 1
-    record = apnc.simulate(apnc.Experiment(duration=0.1, ground=Higher(), engine="compiled"))
+    walk = apnc.Experiment(robot=ROBOT, duration=0.1, ground=Higher(), engine="compiled")
+    record = apnc.simulate(walk)
     assert record.signals["position"][0, 2] == height
     assert record.signals["foot_position"][:, :, 2].min() > RADIUS
 

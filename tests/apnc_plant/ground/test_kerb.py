@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from plain_robot import plain_robot
 from plants import Kind, in_both, settled
 
 from apnc_plant.ground import Kerb
-from apnc_plant.robot import load_robot
 
 H, R = 0.006, 0.012
-ROBOT = load_robot("lilibot")
+ROBOT = plain_robot()
 STEP = Kerb(at=0.5, height=H)
 SILL = Kerb(at=0.5, height=H, length=0.1)
 
@@ -85,7 +85,7 @@ def test_lines_over_a_sill_have_square_corners() -> None:
 
 @in_both
 def test_front_feet_stand_on_a_kerb_and_hind_feet_below_it(kind: Kind) -> None:
-    plant = settled(kind, Kerb(at=0.0, height=0.006))
+    plant = settled(kind, Kerb(at=0.0, height=0.006), ROBOT)
     sample = plant.sample()
     foot, force = sample["foot_position"], sample["foot_force"]
     assert force[:, 2].sum() == pytest.approx(ROBOT.weight, rel=1e-3)

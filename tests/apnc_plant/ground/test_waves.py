@@ -61,7 +61,7 @@ def test_a_ball_that_would_touch_at_two_places_is_refused() -> None:
 @in_both
 def test_on_waves_feet_stand_at_the_height_of_the_waves(kind: Kind) -> None:
     waves = Waves(amplitude=0.005, wavelength=0.3)
-    plant = settled(kind, waves)
+    plant = settled(kind, waves, ROBOT)
     sample = plant.sample()
     assert sample["foot_force"][:, 2].sum() == pytest.approx(ROBOT.weight, rel=5e-3)
     for (x, y, z), force in zip(sample["foot_position"], sample["foot_force"], strict=True):
