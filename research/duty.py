@@ -78,7 +78,7 @@ def experiment(
     walk = Experiment(
         robot=robot(lag, foot), controller=controller, seed=seed, mi=mi, duration=WALK
     )
-    own = walk.parameters()
+    own: Mapping[str, Any] = walk.parameters()
     return replace(walk, settings={"a1": a1 * float(own["a1"]), "a2": a2 * float(own["a2"])})
 
 

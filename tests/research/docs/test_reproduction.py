@@ -79,7 +79,7 @@ def test_the_pages_show_the_words_of_the_file() -> None:
     assert len(shown) == len(words) > 30
     assert shown == [(e["claim"], e["where"], e["verdict"], e["short"]) for e in words]
     count = [sum(e["verdict"] == verdict for e in words) for verdict in VERDICTS]
-    assert f"| {' | '.join(map(str, [*count, len(words)]))} |" in page
+    assert f"| {' | '.join(map(str, [*filter(None, count), len(words)]))} |" in page
     assert reproduction.DETAILS.read_text("utf-8").count('<a id="claim-') == len(words)
     for counted in reproduction.COUNTED:
         assert sentence(e["verdict"] for e in words) in counted.read_text("utf-8")
