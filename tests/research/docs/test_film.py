@@ -55,7 +55,7 @@ def test_the_sheet_tells_the_feet(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     part = film.steady_part(WALK)
     feet = replace(walk_features(part), slip_share={"RF": 0.12, "RH": None, "LF": 0.0, "LH": 0.3})
     film.sheet(film.View(part), feet, tmp_path / "feet.png")
-    assert words[0] == "MI 0.08: 0.090 m/s, 1.50 strides/s, trot"
+    assert words[0] == "MI 0.25: 0.090 m/s, 1.50 strides/s, trot"
     assert "RF lift 15.0 mm" in words and "LH lift 15.0 mm" in words
     shares = [text.split(" = ")[1] for text in words if text.startswith("slip")]
     assert shares == [f"{share} % of the stride" for share in ("12", "-", "0", "30")]
