@@ -54,7 +54,7 @@ class HillInC(Hill):
 
 
 for ground in (Hill(), HillInC()) if shutil.which("cc") else (Hill(),):
-    record = apnc.simulate(apnc.Experiment(mi=0.15, duration=15, ground=ground, engine="compiled"))
+    record = apnc.simulate(apnc.Experiment(mi=0.15, duration=20, ground=ground, engine="compiled"))
     x, z = record.signals["position"][:, [0, 2]].T
     trunk = [float(z[np.abs(x - place) < 0.05].mean()) for place in (0.1, AT, 1.1)]
     print(record.end, f"in {record.wall_s:.2f} s; heights before, on, behind:", np.round(trunk, 4))
