@@ -141,6 +141,7 @@ def test_its_page_names_every_variable(path: Path) -> None:
     assert page.find(".//h1").text == "LilibotPlant"
 
 
+@pytest.mark.thorough
 def test_the_same_build_is_the_same_file(
     path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
