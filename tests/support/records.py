@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from apnc.loop.experiment import Experiment
 from apnc.loop.record import End, Record
 from apnc_core.types import Array
-from apnc_plant.robot.file import load_robot
+from apnc_plant.robot import RobotDescription, load_robot
 
 QUADRUPED = ("RF", "RH", "LF", "LH")
 HEXAPOD = ("RF", "RM", "RH", "LF", "LM", "LH")
@@ -20,7 +20,6 @@ TRIPOD = (np.pi, 0.0, np.pi, 0.0, np.pi)
 
 RATE = 60.0
 FEMUR, TIBIA = 0.070, 0.085
-FEMUR_ANGLE, KNEE_ANGLE = np.deg2rad(-43.0), np.deg2rad(92.0)
 HIP_X, HIP_Y, HIP_Z = 0.092, 0.066, -0.03
 FOOT_RADIUS, LIFT, HEIGHT = 0.012, 0.015, 0.148
 MASS, G = 2.5, 9.81
@@ -75,7 +74,7 @@ def synthetic_record(
     standing, force = _loads(theta, duty, n, t >= air_time)
     feet_trunk = _feet(theta, duty, speed / frequency, legs)
     feet = position[:, None] + np.einsum("ij,tnj->tni", _turn(yaw), feet_trunk)
-    angle = _joint_angles(feet_trunk, legs)
+    angle = _joint_angles(feet_trunk, legs, experiment.description)
     spin = np.gradient(angle, 1 / RATE, axis=0) if len(t) > 1 else np.zeros_like(angle)
     torque = 0.6 * np.sin(theta)[..., None] * np.array([0.1, 1.0, 0.7])
     grf = np.maximum(force[..., 2], 0.0)
@@ -169,8 +168,10 @@ def _feet(theta: Array, duty: float, stride: float, legs: Sequence[str]) -> Arra
     return feet
 
 
-def _joint_angles(feet: Array, legs: Sequence[str]) -> Array:
+def _joint_angles(feet: Array, legs: Sequence[str], robot: RobotDescription) -> Array:
     """Two-link inverse kinematics in the plane of the leg, relative to the reference pose."""
+    own = robot.legs if len(robot.legs) == len(legs) else [robot.legs[0]] * len(legs)
+    reference = np.array([[leg.femur_angle, leg.tibia_angle] for leg in own]).T
     leg = feet - _hips(legs)
     x, down = leg[..., 0], -leg[..., 2]
     reach = np.hypot(x, down)
@@ -178,7 +179,7 @@ def _joint_angles(feet: Array, legs: Sequence[str]) -> Array:
     knee = np.arccos(np.clip(cos_knee, -1, 1))
     inner = np.arctan2(TIBIA * np.sin(knee), FEMUR + TIBIA * np.cos(knee))
     femur = np.arctan2(x, down) - inner
-    return np.stack([np.zeros_like(x), femur - FEMUR_ANGLE, knee - KNEE_ANGLE], axis=-1)
+    return np.stack([np.zeros_like(x), femur + reference[0], knee - reference[1]], axis=-1)
 
 
 def _turn(yaw: float) -> Array:
