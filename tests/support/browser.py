@@ -14,9 +14,8 @@ needs_browser = pytest.mark.skipif(
 )
 # Runs in the page after its own scripts and leaves what it saw in an element.
 PROBE = """<script>
-let apncTries = 200; // 20 s; a page of one tick is never ready
 window.addEventListener("load", () => setTimeout(function look() {
-  if (window.apncReady && !window.apncReady() && apncTries-- > 0) return setTimeout(look, 100);
+  if (window.apncReady && !window.apncReady()) return setTimeout(look, 100);
   const painted = (id) => {
     const canvas = document.getElementById(id);
     if (!canvas || !canvas.width) return 0;
@@ -32,7 +31,7 @@ window.addEventListener("load", () => setTimeout(function look() {
   box.id = "probe";
   box.textContent = JSON.stringify(seen);
   document.body.append(box);
-}, 1500));
+}, 400));
 </script>"""
 
 
