@@ -33,8 +33,7 @@ fmu = instantiate_fmu(extract("Apnc.fmu"), description)
 fmu.setupExperiment(startTime=0.0)
 fmu.enterInitializationMode()
 for name, value in {"MI": mi, "Ts": Ts, "robot_weight": robot.weight, **robot.controller}.items():
-    put = fmu.setInteger if isinstance(value, int) else fmu.setReal
-    put([number[name]], [value])
+    (fmu.setInteger if isinstance(value, int) else fmu.setReal)([number[name]], [value])
 fmu.exitInitializationMode()
 data.qpos[at], data.qpos[2], force = pose, 0.0, np.zeros(6)
 while mujoco.mj_forward(model, data) or floor.id in data.contact.geom:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import own_contact_exudyn
 import pytest
+from plain_robot import plain_robot
 
 from apnc_plant.legged import LeggedPlant
 from apnc_plant.options import PlantOptions
@@ -50,7 +51,8 @@ def test_where_both_laws_are_the_same_a_trot_feels_the_same_forces() -> None:
     # damping from first touch on, as Exudyn has it, needs a fine step: at 16 steps a tick the
     # forces are 5, 10 and 2 % apart, at 64 they are 0.9, 1.8 and 0.7 %, at 256 0.8, 0.7 and 0.2 %
     steps = 64
-    sudden = replace(ROBOT, contact=replace(ROBOT.contact, damping_depth=1e-6))
+    robot = plain_robot()
+    sudden = replace(robot, contact=replace(robot.contact, damping_depth=1e-6))
     options = PlantOptions(step=TICK / steps)
     ours, its = (forces_in_a_trot(kind(sudden, options=options), steps) for kind in PLANTS)
     apart = np.sqrt(((ours - its) ** 2).mean(axis=(0, 1)) / (its**2).mean(axis=(0, 1)))

@@ -42,7 +42,7 @@ def fmus() -> Fmus:
 
 def assert_trot(x: float, ticks: float, phi: list[float]) -> None:
     assert ticks in (TICKS, TICKS + 1)
-    assert x > 1.5
+    assert x > 1.4
     assert np.abs(wrap(np.array(phi) - TROT)).max() < 0.3
 
 

@@ -61,11 +61,11 @@ def test_steering_scales_the_sides_against_each_other() -> None:
         return np.asarray(part.max(axis=0) - part.min(axis=0))
 
     gain = Parameters().turn_gain
-    more = (1.0 + gain) / (1.0 - gain)
-    assert np.allclose(swing(left) / swing(left)[::-1], [more, more, 1 / more, 1 / more], rtol=0.05)
-    assert np.allclose(
-        swing(right) / swing(right)[::-1], [1 / more, 1 / more, more, more], rtol=0.05
-    )
+    more, less = 1.0 + gain, 1.0 - gain
+    for part, shares in ((left, [more, more, less, less]), (right, [less, less, more, more])):
+        found, own = swing(part), np.array(shares)
+        assert found.max() > 0.1  # rad
+        np.testing.assert_allclose(found * own[::-1], found[::-1] * own, rtol=0.05, atol=0.01)
 
 
 PAGE = (ROOT / "docs" / "modelica.md").read_text(encoding="utf-8")

@@ -50,13 +50,13 @@ RESULTS: list[tuple[str, Result, Result]] = [
         "states",
         {"controller": "apc"},
         {
-            "state_formation_time_s": 2.6166666666666663,
+            "state_formation_time_s": 2.55,
             "state_front_stopped": True,
-            "state_speed_s2": 0.032031991822531226,
+            "state_speed_s2": 0.03174214178060413,
             "state_in_phase": True,
-            "path_speed_m_per_s": 0.03306691593612462,
-            "balance": 68.0788168091062,
-            "cost_of_transport": 1.9378619972771909,
+            "path_speed_m_per_s": 0.03354346303399581,
+            "balance": 68.46821170515281,
+            "cost_of_transport": 1.9159242585604095,
         },
     ),
     (

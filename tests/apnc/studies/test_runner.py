@@ -216,11 +216,11 @@ def test_resume_runs_results_with_an_error_again(
     with monkeypatch.context() as context:
         without_runs(context, broken)
         first = run_study("damage", output=tmp_path, trials=1)
-    assert [result["error"] for result in first] == ["RuntimeError: moo", *[""] * 4]
+    assert [result["error"] for result in first] == ["RuntimeError: moo", *[""] * 3]
     results = run_study("damage", output=tmp_path, trials=1, resume=True)
     assert no_runs == [first[0]["key"]]
-    assert [result["error"] for result in results] == [""] * 5
-    assert len(lines(tmp_path)) == 6  # the last line of a trial counts
+    assert [result["error"] for result in results] == [""] * 4
+    assert len(lines(tmp_path)) == 5  # the last line of a trial counts
 
 
 def test_resume_does_not_keep_results_of_another_robot(
@@ -234,11 +234,11 @@ def test_resume_does_not_keep_results_of_another_robot(
     file.write_text(text)
     before = run_study("damage", output=tmp_path / "out", trials=1)
     again = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
-    assert again == before and len(no_runs) == 5
+    assert again == before and len(no_runs) == 4
     friction = next(line for line in text.splitlines() if line.startswith("friction ="))
     file.write_text(text.replace(friction, "friction = 0.33"))
     after = run_study("damage", output=tmp_path / "out", trials=1, resume=True)
-    assert len(no_runs) == 10
+    assert len(no_runs) == 8
     assert not {result["key"] for result in before} & {result["key"] for result in after}
 
 
@@ -324,4 +324,4 @@ def test_a_killed_study_resumes_without_loss_or_repetition(tmp_path: Path) -> No
     assert 2 <= len(before) < 1200
     results = run_study("damage", trials=1, duration=10.0, output=tmp_path, resume=True)
     assert lines(tmp_path)[: len(before)] == before
-    assert len(results) == len({id_of(result) for result in results}) == 5
+    assert len(results) == len({id_of(result) for result in results}) == 4

@@ -34,7 +34,7 @@ def test_other_engines_walk_in_processes_and_say_what_they_need(
     monkeypatch.setitem(sys.modules, "loky", None)
     with pytest.raises(ValueError, match=r"engine exudyn needs the extra 'study': pip install"):
         run_study("engines", **asked, studies=RESEARCH, workers=2)
-    assert len(run_study("damage", trials=1, duration=0.5, workers=2)) == 5
+    assert len(run_study("damage", trials=1, duration=0.5, workers=2)) == 4
 
 
 def test_a_chunk_is_of_one_kind_and_another_engine_goes_by_itself() -> None:
