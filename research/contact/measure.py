@@ -80,15 +80,16 @@ def errors(own: Trot, finest: Trot) -> Result:
     Returns:
         ``peak_N``: largest vertical force on a foot [N].
         ``force_error``: rms difference of the vertical forces over their rms [1], sampled at the
-        times of the coarsest step.
+        times of the coarsest step that both have.
         ``tick_force_error``: the same of the mean forces of each tick [1].
         ``chatter``: see :func:`chatter` [1].
         ``distance_error_mm``: distance between the last positions [mm].
     """
     forces, reference = _per_tick(own), _per_tick(finest)
+    grid = math.gcd(STEPS[0], forces.shape[1], reference.shape[1])
     return {
         "peak_N": float(own.forces[:, :, 2].max()),
-        "force_error": _relative(_coarsest(forces), _coarsest(reference)),
+        "force_error": _relative(_coarser(forces, grid), _coarser(reference, grid)),
         "tick_force_error": _relative(forces.mean(axis=1), reference.mean(axis=1)),
         "chatter": chatter(own.forces),
         "distance_error_mm": 1e3 * float(np.linalg.norm(own.position - finest.position)),
@@ -110,8 +111,9 @@ def _per_tick(trot: Trot) -> Array:
     return trot.forces[:, :, 2].reshape(ticks, -1, trot.forces.shape[1])
 
 
-def _coarsest(forces: Array) -> Array:
-    every = forces.shape[1] // STEPS[0]
+def _coarser(forces: Array, grid: int) -> Array:
+    """Forces at so many times in a tick, which all that are compared have."""
+    every = forces.shape[1] // grid
     return forces[:, every - 1 :: every]
 
 
