@@ -57,6 +57,7 @@ class _Chance:
     def __init__(self, share: float, rng: np.random.Generator) -> None:
         self._share, self._rng = share, rng
         self._drawn: dict[str, float] = {}
+        self._made: dict[tuple[Any, str], Any] = {}
 
     def off(self, name: str) -> float:
         """How far a number is off, -share to share [1]."""
@@ -65,7 +66,13 @@ class _Chance:
         return self._drawn[name]
 
     def part(self, part: Part, name: str) -> Part:
-        """A copy of a robot or of one of its parts."""
+        """A copy of a robot or of one of its parts; equal parts of several legs are copied once."""
+        if (part, name) not in self._made:
+            self._made[part, name] = self._copy(part, name)
+        made: Part = self._made[part, name]
+        return made
+
+    def _copy(self, part: Part, name: str) -> Part:
         found: dict[str, Any] = {}
         for each in fields(part):  # type: ignore[arg-type]  # a dataclass
             value, inside = getattr(part, each.name), f"{name}.{each.name}"

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import fields
+from functools import cache
+from types import MappingProxyType
 
 from apnc_core.interface import Parameters
 from apnc_core.schema import Causality
@@ -30,7 +33,8 @@ def preset(name: str) -> Parameters:
     return Parameters(**printed)  # type: ignore[arg-type]  # the table gives each its type
 
 
-def preset_values(name: str) -> dict[str, Setting]:
+@cache
+def preset_values(name: str) -> Mapping[str, Setting]:
     """The parameters of one preset by name, see :func:`preset`."""
     chosen = preset(name)
-    return {each.name: getattr(chosen, each.name) for each in fields(chosen)}
+    return MappingProxyType({each.name: getattr(chosen, each.name) for each in fields(chosen)})

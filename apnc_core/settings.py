@@ -92,15 +92,16 @@ def _item(variable: Variable, value: object) -> int:
 def _number(variable: Variable, value: object, shown: object) -> float:
     whole = variable.type is Type.integer
     assert variable.min is not None and variable.max is not None
-    allowed = (
-        f"{'a whole number' if whole else 'a number'} from {variable.min:g} to {variable.max:g}"
-    )
+    if (
+        isinstance(value, int if whole else int | float)
+        and not isinstance(value, bool)
+        and math.isfinite(value)
+        and variable.min <= value <= variable.max
+    ):
+        return value if whole else float(value)
     unit = f" [{variable.unit}]" if variable.unit not in (None, "1") else ""
-    if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
-        raise _error(variable.name, shown, allowed + unit)
-    if not (math.isfinite(value) and variable.min <= value <= variable.max):
-        raise _error(variable.name, shown, allowed + unit)
-    return value if whole else float(value)
+    kind = "a whole number" if whole else "a number"
+    raise _error(variable.name, shown, f"{kind} from {variable.min:g} to {variable.max:g}{unit}")
 
 
 def _error(name: str, value: object, allowed: str) -> ValueError:

@@ -83,7 +83,7 @@ class BuildOptions:
 
     def parameters(self) -> Parameters:
         """The parameters that the FMU starts with."""
-        values: dict[str, Any] = preset_values(self.preset) | dict(self.settings)
+        values: dict[str, Any] = {**preset_values(self.preset), **self.settings}
         return Parameters(**values)
 
     def start(self, v: Variable) -> tuple[Value, ...]:

@@ -24,7 +24,7 @@ from apnc_plant.ground import GroundInC
 from apnc_plant.library import aligned_memory, library
 from apnc_plant.numbers import conditions_numbers, robot_numbers
 from apnc_plant.options import PlantOptions
-from apnc_plant.sample import record_signals, sample_size
+from apnc_plant.sample import record_signals, record_size, recorded_signals, signal_bits
 from apnc_plant.signals import diverged
 from apnc_plant.start import start_coordinates
 from build_fmu.build import host_fmu
@@ -54,11 +54,20 @@ class Run:
     Args:
         experiment: what is run. It walks in C whatever its engine is.
         controller: the controller FMU.
+        signals: names of the signals to record, those of the :class:`Batch`; None: all.
     """
 
-    def __init__(self, experiment: Experiment, controller: ControllerLibrary) -> None:
+    def __init__(
+        self,
+        experiment: Experiment,
+        controller: ControllerLibrary,
+        signals: frozenset[str] | None = None,
+    ) -> None:
         ffi, _ = library()
         self.experiment, self._controller = experiment, controller
+        self._sizes = controller.recording(signals).sizes
+        self._of_plant = recorded_signals(signals)
+        self._whole = signals is None
         robot, ground = experiment.description, experiment.ground
         steps = [(tick, conditions_of(c, robot)) for tick, c in _ticks(experiment, "conditions")]
         first = steps[0][1]
@@ -72,7 +81,8 @@ class Run:
         conditions = [conditions_numbers(c, names, robot.weight) for _, c in steps]
         starts, kept = controller.starts(experiment.starts())
         ticks = experiment.ticks
-        size = ticks * (sample_size(n_legs) + len(controller.recorded))
+        of_plant = ticks * record_size(self._of_plant, n_legs)
+        size = of_plant + ticks * sum(self._sizes.values())
         try:
             table = np.empty(size)
         except MemoryError:
@@ -80,7 +90,7 @@ class Run:
                 f"duration = {experiment.duration:g} s: a record of {8e-9 * size:.0f} GB does not "
                 "fit into memory"
             ) from None
-        self._samples, self._shown = np.split(table, [ticks * sample_size(n_legs)])
+        self._samples, self._shown = table[:of_plant], table[of_plant:]
         self._parameters = np.empty(len(controller.parameters))
         changes = velocity_changes(experiment.pushes, self.mass, experiment.Ts, ticks)
         schedules = {name: _schedule(experiment, name) for name in ("mi", "turn", "reset")}
@@ -100,6 +110,7 @@ class Run:
             "n_pushes": len(changes),
             "push_tick": ffi.new("int32_t[]", list(changes)),
             "push": ffi.new("double[]", [v for change in changes.values() for v in change]),
+            "plant_signals": signal_bits(self._of_plant),
             "plant_record": ffi.from_buffer("double[]", self._samples),
             "controller_record": ffi.from_buffer("double[]", self._shown),
             "parameters": ffi.from_buffer("double[]", self._parameters),
@@ -123,7 +134,7 @@ class Run:
     def _controller_signals(self, count: int) -> dict[str, Array]:
         """The first samples of every variable of the controller, by name."""
         signals, start, ticks = {}, 0, self.experiment.ticks
-        for name, size in self._controller.sizes.items():
+        for name, size in self._sizes.items():
             values = self._shown[start : start + ticks * size]
             scalar = variable_named(name).shape is Shape.scalar
             signals[name] = (values if scalar else values.reshape(ticks, size))[:count]
@@ -159,13 +170,17 @@ class Run:
             legs=tuple(leg.name for leg in robot.legs),
             time=np.arange(count, dtype=np.float64) * self.experiment.Ts,
             signals=merged(
-                plant=record_signals(self._samples, self.experiment.ticks, count, len(robot.legs)),
+                plant=record_signals(
+                    self._samples, self._of_plant, self.experiment.ticks, count, len(robot.legs)
+                ),
                 controller=self._controller_signals(count),
             ),
             mass=self.mass,
             experiment=self.experiment,
             robot=robot,
-            parameters={} if refused else self._controller.parameters_of(self._parameters.tolist()),
+            parameters=self._controller.parameters_of(self._parameters.tolist())
+            if self._whole and not refused
+            else {},
             end=found,
             message=message,
             fmu_wall_s=float(self.at.controller_s),
@@ -242,6 +257,7 @@ class Batch:
         single: compute one run with its legs side by side, in place of several runs.
         level: instruction set, see ``plant.h``; the best of this machine if omitted. Every level
             gives the same bits.
+        signals: names of the signals that are recorded; None: all.
 
     Attributes:
         size: number of lanes.
@@ -253,7 +269,13 @@ class Batch:
     """
 
     def __init__(
-        self, lanes: Lanes, contacts: int, *, single: bool = False, level: int | None = None
+        self,
+        lanes: Lanes,
+        contacts: int,
+        *,
+        single: bool = False,
+        level: int | None = None,
+        signals: frozenset[str] | None = None,
     ) -> None:
         ffi, lib = library()
         self.controller = controller_library(lanes.fmu)
@@ -269,10 +291,8 @@ class Batch:
         history = lib.plant_history(lanes.latency, lanes.delay, Ts)
         shape = (kind, level, lanes.n_legs, 0 if lanes.flat else contacts, history)
         self._memory, self._kept = aligned_memory(lib.loop_size(*shape))
-        lib.loop_create(
-            self._memory, *shape, self.controller.functions, self.controller.variables, Ts,
-            lanes.step,
-        )  # fmt: skip
+        variables = self.controller.recording(signals).variables
+        lib.loop_create(self._memory, *shape, self.controller.functions, variables, Ts, lanes.step)
         self.size = int(lib.loop_lanes(self._memory))
         self._stop = ffi.new("int32_t *", 0)
         self._runs: list[Run | None] = [None] * self.size

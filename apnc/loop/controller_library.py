@@ -7,6 +7,7 @@ import ctypes
 import threading
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, Final
@@ -21,6 +22,7 @@ from apnc.loop.fmu_controller import (
     unpack,
 )
 from apnc_core import settings
+from apnc_core.frozen import Frozen
 from apnc_core.schema import Causality, Type
 from apnc_core.settings import SettingLike
 from apnc_core.variables import Scalar, scalars, variable_named
@@ -54,6 +56,21 @@ _KINDS: Final = {Type.real: "real", Type.boolean: "boolean"}
 """Group of a type in ``loop_starts``. All other types are integers."""
 
 
+@dataclass(frozen=True)
+class Recording:
+    """What C reads from a controller at every tick and records.
+
+    Args:
+        variables: ``loop_variables`` of C.
+        sizes: number of entries of each recorded variable by name, in the order of the record.
+        kept: arrays that ``variables`` points to.
+    """
+
+    variables: Any
+    sizes: Mapping[str, int]
+    kept: Mapping[str, Any]
+
+
 class ControllerLibrary:
     """A controller FMU that is unpacked and loaded. Any number of instances can run at a time.
 
@@ -63,9 +80,7 @@ class ControllerLibrary:
     Attributes:
         n_legs: number of legs.
         guid: of the FMU, for C.
-        functions, variables: ``loop_functions`` and ``loop_variables`` of C.
-        recorded: scalar variables in the order of the record in C.
-        sizes: number of entries of each variable in that record, by name, in its order.
+        functions: ``loop_functions`` of C.
         parameters: scalar parameters in the order in which C reads them back.
 
     Raises:
@@ -96,52 +111,66 @@ class ControllerLibrary:
             for member, name in _FUNCTIONS.items()
         }
         self.functions = ffi.new("loop_functions *", addresses)
-        self._lay_out()
+        self._scalars = list(scalars(self.n_legs, self._naming))
+        self._read_back = self._parameters_of_c()
+        self.recording = lru_cache(self._recording)
+        self._starts = lru_cache(self._new_starts)
 
-    def _lay_out(self) -> None:
+    def _recording(self, signals: frozenset[str] | None) -> Recording:
+        """How C reads and records the controller; one object for each choice of signals.
+
+        Args:
+            signals: names of the outputs and local variables to record; None: all. Inputs and
+                commands always are.
+        """
         ffi, _ = library()
-        members = list(scalars(self.n_legs, self._naming))
 
         def named(*names: str) -> list[Scalar]:
             return [m for name in names for m in self._members[name]]
 
-        def those(kind: Type, *causes: Causality) -> list[Scalar]:
+        def those(kind: Type) -> list[Scalar]:
             return [
-                m for m in members if m.variable.type is kind and m.variable.causality in causes
+                m
+                for m in self._scalars
+                if m.variable.type is kind
+                and m.variable.causality in (Causality.output, Causality.local)
+                and (signals is None or m.variable.name in signals)
             ]
 
-        shown = (Causality.output, Causality.local)
         inputs, reset, commands = named(*_INPUTS), named("reset"), named(*_COMMANDS)
-        outputs = commands + [m for m in those(Type.real, *shown) if m not in commands]
-        whole, flags = those(Type.integer, *shown), those(Type.boolean, *shown)
-        self.recorded = [*inputs, *reset, *outputs, *whole, *flags]
-        self._references = [
-            ffi.new("uint32_t[]", [m.value_reference for m in group] or 1)
-            for group in (inputs, reset, outputs, whole, flags)
-        ]
-        groups = dict(
-            zip(("inputs", "reset", "reals", "integers", "booleans"), self._references, strict=True)
-        )
+        outputs = commands + [m for m in those(Type.real) if m not in commands]
+        whole, flags = those(Type.integer), those(Type.boolean)
+        references = {
+            name: ffi.new("uint32_t[]", [m.value_reference for m in group] or 1)
+            for name, group in (
+                ("inputs", inputs), ("reset", reset), ("reals", outputs), ("integers", whole),
+                ("booleans", flags),
+            )
+        }  # fmt: skip
         counts = {"n_reals": len(outputs), "n_integers": len(whole), "n_booleans": len(flags)}
-        self.sizes = Counter(m.variable.name for m in self.recorded)
-        self._references.append(ffi.new("int32_t[]", list(self.sizes.values())))
-        sizes = {"sizes": self._references[-1], "n_sizes": len(self.sizes)}
-        read_back = self._read_back(members)
-        fields = {"legs": self.n_legs, **groups, **counts, **sizes, **read_back}
-        self.variables = ffi.new("loop_variables *", fields)
+        recorded = [*inputs, *reset, *outputs, *whole, *flags]
+        sizes = Counter(m.variable.name for m in recorded)
+        fields = {
+            "legs": self.n_legs,
+            **references,
+            **counts,
+            "sizes": ffi.new("int32_t[]", list(sizes.values())),
+            "n_sizes": len(sizes),
+            **self._read_back,
+        }
+        return Recording(ffi.new("loop_variables *", fields), sizes, fields)
 
-    def _read_back(self, members: Sequence[Scalar]) -> dict[str, Any]:
+    def _parameters_of_c(self) -> dict[str, Any]:
         """Which parameters C reads back, and in what order."""
         ffi, _ = library()
         groups: dict[str, list[Scalar]] = {"real": [], "integer": [], "boolean": []}
-        for member in members:
+        for member in self._scalars:
             if member.variable.causality is Causality.parameter:
                 groups[_KINDS.get(member.variable.type, "integer")].append(member)
         self.parameters = [member for group in groups.values() for member in group]
         fields: dict[str, Any] = {}
         for kind, group in groups.items():
             references = ffi.new("uint32_t[]", [m.value_reference for m in group] or 1)
-            self._references.append(references)
             fields |= {f"{kind}_parameters": references, f"n_{kind}_parameters": len(group)}
         return fields
 
@@ -161,9 +190,14 @@ class ControllerLibrary:
     def starts(self, parameters: Mapping[str, SettingLike]) -> tuple[Any, tuple[Any, ...]]:
         """Start values as ``loop_starts``, and the arrays that it points to and that must be kept.
 
+        Many runs share their start values, and C does not change them.
+
         Raises:
             FmuError: an unknown parameter, or a wrong number of values.
         """
+        return self._starts(Frozen(parameters))
+
+    def _new_starts(self, parameters: Mapping[str, SettingLike]) -> tuple[Any, tuple[Any, ...]]:
         ffi, _ = library()
         groups: dict[str, list[tuple[int, float]]] = {"real": [], "integer": [], "boolean": []}
         for name, value in parameters.items():

@@ -32,6 +32,7 @@ def walk_many(
     *,
     workers: int = 1,
     stop: Stop = lambda: False,
+    signals: frozenset[str] | None = None,
 ) -> Iterator[tuple[int, Found | Exception]]:
     """Walk experiments and yield what ``each`` makes of every record, as the runs finish.
 
@@ -41,6 +42,8 @@ def walk_many(
             at a time per thread.
         workers: number of threads.
         stop: asked a few times a second; True ends the work.
+        signals: names of the signals that ``each`` needs; a record then holds these, the inputs and
+            the commands of the controller, and no parameters, and takes less time. None: all.
 
     Yields:
         Index of an experiment, and its result or the exception that ended it.
@@ -51,7 +54,7 @@ def walk_many(
     if workers < 1:
         raise ValueError(f"workers = {workers} is not at least 1")
     experiments = [compiled(experiment) for experiment in experiments]
-    yield from _Work(experiments, each).results(min(workers, len(experiments)), stop)
+    yield from _Work(experiments, each, signals).results(min(workers, len(experiments)), stop)
 
 
 class _Group:
@@ -80,9 +83,12 @@ class _Work:
     """
 
     def __init__(
-        self, experiments: Sequence[Experiment], each: Callable[[int, Record], object]
+        self,
+        experiments: Sequence[Experiment],
+        each: Callable[[int, Record], object],
+        signals: frozenset[str] | None,
     ) -> None:
-        self._experiments, self._each = experiments, each
+        self._experiments, self._each, self._signals = experiments, each, signals
         those: dict[Lanes, list[int]] = {}
         for index, experiment in enumerate(experiments):
             those.setdefault(lanes_of(experiment), []).append(index)
@@ -139,7 +145,12 @@ class _Work:
     def _walk(self, group: _Group) -> None:
         """Walk what is left of a group side by side. An error in one run ends no other."""
         try:
-            batch = Batch(group.lanes, group.contacts, single=len(group.left) == 1)
+            batch = Batch(
+                group.lanes,
+                group.contacts,
+                single=len(group.left) == 1,
+                signals=self._signals,
+            )
         except ValueError as error:  # the controller cannot be used
             while (index := self._next(group)) is not None:
                 self._found.put((index, error))
@@ -169,7 +180,7 @@ class _Work:
 
     def _begin(self, batch: Batch, index: int, walking: dict[Run, int]) -> None:
         try:
-            run = Run(self._experiments[index], batch.controller)
+            run = Run(self._experiments[index], batch.controller, self._signals)
         except Exception as error:
             self._found.put((index, error))
             return

@@ -23,6 +23,11 @@ _TO_STOP: Final = (signal.SIGINT, signal.SIGTERM)
 """Signals that end a study. They also reach the worker processes, which ignore them."""
 
 
+_BLAS_THREADS: Final = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
+"""Variables that limit the threads of linear algebra. As many processes as there are cores would
+take the cores from each other with threads that wait in a loop."""
+
+
 class Walk(Protocol):
     """Runs trials in this process and gives results as they finish, in any order."""
 
@@ -71,7 +76,9 @@ def processes(workers: int, extra: str, what: str = "") -> Any:
     except ImportError:
         needs = f"workers = {workers}{what} needs the extra '{extra}'"
         raise ValueError(f"{needs}: {install_command(extra)}, or --workers 1") from None
-    executor = get_reusable_executor(workers, initializer=_leave_interrupts_to_parent)
+    executor = get_reusable_executor(
+        workers, initializer=_leave_interrupts_to_parent, env=dict.fromkeys(_BLAS_THREADS, "1")
+    )
     with _interrupts_ignored():
         executor.submit(int)  # starts the processes, which ignore the signals from then on
     return executor

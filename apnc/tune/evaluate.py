@@ -14,7 +14,7 @@ from apnc.loop.many import walk_many
 from apnc.loop.record import Record
 from apnc.tune.costs import total
 from apnc.tune.design import Start, candidate
-from apnc.tune.measured import Measured
+from apnc.tune.measured import SIGNALS, Measured
 from apnc.tune.paper import measured_of_paper, of_paper
 from apnc.tune.runs import MI_COUNT, Extra, Task, of_generation
 from apnc_core.types import Array
@@ -129,7 +129,7 @@ def _walked(start: Start, tasks: Sequence[Task], stop: Stop = _never) -> list[Me
 
     found: list[Measured | None] = [None] * len(tasks)
     experiments = [task.experiment for task in tasks]
-    for index, result in walk_many(experiments, measure, stop=stop):
+    for index, result in walk_many(experiments, measure, stop=stop, signals=SIGNALS):
         if isinstance(result, Exception):
             raise result
         found[index] = result

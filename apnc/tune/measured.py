@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -43,6 +44,11 @@ LATE: Final = 0.45
 
 END: Final = 0.25
 """Last part of a run, at which the gait must be exact, as a share of it."""
+
+SIGNALS: Final = frozenset({
+    "o1", "o2", "position", "rpy", "joint_torque", "joint_work", "foot_position", "foot_force",
+})  # fmt: skip
+"""Signals of a run that are needed to measure it."""
 
 SATURATED: Final = 0.97
 """Share of its limit from which on a torque counts as saturated [1]."""
@@ -152,6 +158,7 @@ def target(n_legs: int) -> Array:
     return np.asarray(found)
 
 
+@lru_cache
 def _stall_torques(robot: RobotDescription) -> Array:
     """Largest torque of every servo [N m], shape (n, 3)."""
     common = robot.servo.stall_torque

@@ -125,10 +125,11 @@ def of_generation(
     found = []
     for each in candidates:
         bodies = [_off(each.robot, seed) for seed in seeds[:BODIES]]
+        step = shared_step(each.robot, start.rate, coarse=True)
         tasks = [
             _task(
                 start, each, kind, share, WALK_S, conditions,
-                seed=seeds[k], coarse=True,
+                seed=seeds[k], step=step,
                 body=each.robot if start.paper and kind in ("walk", "apc") else bodies[k % BODIES],
             )
             for k, (kind, share, conditions) in enumerate(plan)
@@ -215,7 +216,7 @@ def _task(
     *,
     seed: int,
     body: RobotDescription | None = None,
-    coarse: bool = False,
+    step: float | None = None,
 ) -> Task:
     experiment = Experiment(
         robot=body or each.robot,
@@ -227,7 +228,7 @@ def _task(
         settings={"robot_weight": each.robot.weight},
         conditions=conditions,
         rate=start.rate,
-        step=shared_step(each.robot, start.rate, coarse=coarse),
+        step=step or shared_step(each.robot, start.rate),
         engine="compiled",
     )
     return Task(kind, share, experiment)

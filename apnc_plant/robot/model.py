@@ -322,6 +322,9 @@ def _growing(span: tuple[float, float]) -> tuple[float, float]:
 MiRange = Annotated[tuple[ModulatoryInput, ModulatoryInput], AfterValidator(_growing)]
 
 
+_HASH: Final = "_hash"
+
+
 @checked(RobotDescriptionError)
 class RobotDescription:
     """A robot as data, independent of any engine.
@@ -388,6 +391,18 @@ class RobotDescription:
                     f"the {joint} of leg {leg.name} turns neither mass nor rotor; allowed: a mass "
                     "behind it, or a reflected_inertia of its servo above 0"
                 )
+
+    def __hash__(self) -> int:
+        """Hash of all fields, computed once: what depends on a robot is looked up by it."""
+        found: int | None = self.__dict__.get(_HASH)
+        if found is None:
+            found = hash(tuple(getattr(self, each.name) for each in fields(self)))
+            object.__setattr__(self, _HASH, found)
+        return found
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the hash, which differs between processes."""
+        return {name: value for name, value in self.__dict__.items() if name != _HASH}
 
     @property
     def leg_names(self) -> tuple[str, ...]:

@@ -234,7 +234,8 @@ static const char *step_controller(loop *l, loop_lane *at, int32_t n, const doub
 /* Write the values of one variable at this tick; a record keeps all ticks of a variable together.
  */
 static void record_row(double *record, const loop_run *run, const double *row, int32_t size) {
-    memcpy(record + (size_t)run->count * (size_t)size, row, (size_t)size * sizeof *row);
+    double *to = record + (size_t)run->count * (size_t)size;
+    for (int32_t i = 0; i < size; i++) to[i] = row[i]; /* few: a call of memcpy takes longer */
 }
 
 static void record_controller(const loop_variables *v, const loop_run *run, const double *row) {
@@ -254,8 +255,10 @@ static void record_plant(const loop *l, int32_t lane, const loop_run *run) {
     const double *row = sample;
     plant_sample(plant_in(l), lane, sample);
     for (int i = 0; i < 10; i++) {
-        record_row(record, run, row, sizes[i]);
-        record += (size_t)run->ticks * (size_t)sizes[i];
+        if (run->plant_signals >> i & 1) {
+            record_row(record, run, row, sizes[i]);
+            record += (size_t)run->ticks * (size_t)sizes[i];
+        }
         row += sizes[i];
     }
 }

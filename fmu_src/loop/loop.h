@@ -87,8 +87,10 @@ typedef struct {
     int32_t n_pushes;                  /* ticks at whose begin the robot is pushed */
     const int32_t *push_tick;          /* they grow */
     const double *push;                /* [m/s] change of velocity, x and y for each tick */
-    double *plant_record;      /* the signals of plant_sample one after the other, each of `ticks`
-                                  times its size; NULL: none */
+    uint32_t plant_signals;    /* which signals of plant_sample are recorded: bit i stands for the
+                                  i-th of them */
+    double *plant_record;      /* these signals one after the other, each of `ticks` times its size;
+                                  NULL: none */
     double *controller_record; /* the variables one after the other, each of `ticks` times its
                                   size; NULL: none */
     double *parameters;        /* as the controller has them at the start: reals, then integers,

@@ -49,6 +49,19 @@ def same(a: Record, b: Record) -> bool:
     return a.end == b.end and all(np.array_equal(x, y) for x, y in pairs)
 
 
+def test_chosen_signals_have_the_bits_that_they_have_among_all() -> None:
+    chosen = frozenset({"o2", "phi", "rpy", "foot_force"})
+    runs, found = several(), dict[int, Any]()
+    for index, record in walk_many(runs, lambda _, record: record, signals=chosen):
+        found[index] = record
+    for run, record in zip(runs, map(found.__getitem__, range(len(runs))), strict=True):
+        whole = simulate(run)
+        assert chosen <= set(record.signals) and "o1" not in record.signals
+        assert "position" not in record.signals and record.end == whole.end
+        for name, values in record.signals.items():
+            assert np.array_equal(values, whole.signals[name]), name
+
+
 @pytest.mark.parametrize("workers", [1, 3])
 def test_each_walks_as_it_walks_alone(workers: int) -> None:
     runs, told = several(), list[tuple[int, int]]()

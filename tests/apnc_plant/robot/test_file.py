@@ -1,7 +1,10 @@
 """Robot files: what is read, and what is refused."""
 
 import math
+import os
 import pickle
+import subprocess
+import sys
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -25,6 +28,22 @@ def test_lilibot_has_the_published_mass_and_leg_order() -> None:
         [1, 1],
         [-1, 1],
     ]
+
+
+def test_a_sent_robot_is_found_by_its_hash_in_another_process() -> None:
+    robot = load_robot("lilibot")
+    found = {robot: "here"}
+    code = (
+        "import pickle, sys\nfrom apnc_plant.robot import load_robot\n"
+        "sent = pickle.load(sys.stdin.buffer)\nprint({load_robot('lilibot'): 'there'}[sent])"
+    )
+    # texts have another hash in every process
+    there = subprocess.run(
+        [sys.executable, "-c", code],
+        input=pickle.dumps(robot), capture_output=True, check=True,
+        env={**os.environ, "PYTHONHASHSEED": "1"},
+    )  # fmt: skip
+    assert found[load_robot("lilibot")] == "here" and there.stdout.split() == [b"there"]
 
 
 def test_box_inertia() -> None:
