@@ -112,7 +112,8 @@ def measured(start: Start, task: Task, record: Record) -> Measured:
         return fallen(task, len(record.time) / ticks)
     signals, n = record.signals, len(record.legs)
     time, o1, o2 = record.time, signals["o1"], signals["o2"]
-    error = np.nan_to_num(metrics.phase_error(o1, o2, target(n)), nan=np.pi)
+    error = metrics.phase_error(o1, o2, target(n))
+    error[np.isnan(error)] = np.pi
     touch = metrics.touch_moment(signals["foot_force"][..., 2], record.mass * metrics.GRAVITY)
     settled = metrics.settling_time(time, error, touch)
     late = slice(ticks - round(LATE * ticks), None)
@@ -126,7 +127,7 @@ def measured(start: Start, task: Task, record: Record) -> Measured:
     turn = metrics.turned(yaw) or 0.0
     stall = _stall_torques(record.robot)
     torque = np.abs(signals["joint_torque"][late])
-    work = signals["joint_work"][late].reshape(len(yaw), -1).sum(axis=1)
+    work = signals["joint_work"][late][[0, -1]].reshape(2, -1).sum(axis=1)
     way = max(speed, MIN_SPEED * start.gravity_speed) * float(time[-1] - time[late][0])
     return Measured(
         task.kind,
