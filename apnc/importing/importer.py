@@ -16,7 +16,7 @@ from apnc.importing.legs import LegGeometry
 from apnc.importing.limbs import Limbs, limbs_of
 from apnc.importing.mjcf import read_mjcf
 from apnc.importing.model import Model, ModelFileError
-from apnc.importing.robot_file import TURN, Found, robot_text
+from apnc.importing.robot_file import Found, robot_text
 from apnc.importing.scaling import Estimate, Size, gain, guess
 from apnc.importing.stance import Stance, Swing, stance_by_rule, stance_of_pose
 from apnc.importing.urdf import read_urdf
@@ -125,21 +125,9 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
         stance,
         guessed.estimates,
         (
-            *model.dropped, *limbs.folded, *stance.dropped, *_coxae(legs), *guessed.dropped,
-            *text.dropped,
+            *model.dropped, *limbs.folded, *stance.dropped, *guessed.dropped, *text.dropped,
         ),
     )  # fmt: skip
-
-
-def _coxae(legs: Sequence[LegGeometry]) -> tuple[str, ...]:
-    """That ranges of coxae are left out, in words."""
-    turns = [leg.turns["pointing"] for leg in legs if leg.has_coxa]
-    ranges = [turn for turn in turns if turn.upper - turn.lower < TURN]
-    if not ranges:
-        return ()
-    low, high = ranges[0].joint.lower, ranges[0].joint.upper
-    name = ranges[0].joint.name
-    return (f"ranges of {len(ranges)} coxae ({name}, {low:.3g} to {high:.3g} rad, and so on)",)
 
 
 def _ordered(legs: Iterable[LegGeometry]) -> tuple[LegGeometry, ...]:

@@ -163,17 +163,26 @@ def _leg(leg: LegGeometry, boxes: _Boxes, pose: Pose) -> dict[str, Any]:
     return written | {**_ranges(leg), "knee": ">" if pose.tibia < 0.0 else "<", **links}
 
 
+_STOPS: Final = {
+    "abduction": "abduction_range",
+    "pointing": "coxa_range",
+    "femur": "femur_range",
+    "tibia": "tibia_range",
+}
+"""Keys of a leg's stops by the angle of :class:`Pose`."""
+
+
 def _ranges(leg: LegGeometry) -> dict[str, tuple[float, float]]:
     """Stops of the joints of a leg that has them [deg], y outward."""
     found = {}
-    for angle in ("abduction", "femur", "tibia"):
+    for angle, key in _STOPS.items():
         if (turn := leg.turns.get(angle)) is None:
             continue
         low, high = turn.lower, turn.upper
         if angle == "abduction":
             low, high = min(leg.side * low, leg.side * high), max(leg.side * low, leg.side * high)
         if high - low < TURN:
-            found[f"{angle}_range"] = math.degrees(low), math.degrees(high)
+            found[key] = math.degrees(low), math.degrees(high)
     return found
 
 

@@ -94,8 +94,9 @@ class Leg:
         knee: ``"<"`` for a knee behind the line from hip to foot, ``">"`` for one in front of it. A
             positive angle of the knee flexes it either way.
         abduction_angle: reference pose, foot outward of vertical [rad].
-        abduction_range, femur_range, tibia_range: stops of the joints, as values of
-            ``abduction_angle``, ``femur_angle`` and ``tibia_angle`` [rad]; None for none.
+        abduction_range, coxa_range, femur_range, tibia_range: stops of the joints, as values of
+            ``abduction_angle``, ``pointing``, ``femur_angle`` and ``tibia_angle`` [rad]; None for
+            none.
         foot_radius: radius of its foot ball [m]; None for that of the contact.
         servo: what its servos have of their own.
         chain: its joints from the trunk outward, one of ``CHAINS``. With a coxa, ``femur_angle`` is
@@ -122,6 +123,7 @@ class Leg:
     knee: Literal["<", ">"] = "<"
     abduction_angle: Angle = 0.0
     abduction_range: Range | None = None
+    coxa_range: Range | None = None
     femur_range: Range | None = None
     tibia_range: Range | None = None
     foot_radius: Edge | None = None
@@ -140,10 +142,10 @@ class Leg:
                 f"{unknown} is {math.degrees(getattr(self, unknown)):.4g} deg and chain is "
                 f"{list(self.chain)}; allowed with it: 0",
             )
-        if self.has_coxa and self.abduction_range is not None:
+        stops = "abduction_range" if self.has_coxa else "coxa_range"
+        if getattr(self, stops) is not None:
             raise KeyRefusedError(
-                "abduction_range",
-                f"abduction_range is given and chain is {list(self.chain)}; allowed with it: none",
+                stops, f"{stops} is given and chain is {list(self.chain)}; allowed with it: none"
             )
         if (self.tibia_angle > 0.0) if self.knee == ">" else (self.tibia_angle < 0.0):
             sign, other = ("less", "<") if self.knee == ">" else ("more", ">")
@@ -153,15 +155,16 @@ class Leg:
                 f"{math.degrees(self.tibia_angle):.4g} deg; allowed with it: 0 and {sign}, "
                 f'or the line knee = "{other}"',
             )
-        for key, stops, angle in (
+        for key, span, angle in (
             ("abduction_range", self.abduction_range, self.abduction_angle),
+            ("coxa_range", self.coxa_range, self.pointing),
             ("femur_range", self.femur_range, self.femur_angle),
             ("tibia_range", self.tibia_range, self.tibia_angle),
         ):
-            if stops is None or stops[0] - AT_A_STOP <= angle <= stops[1] + AT_A_STOP:
+            if span is None or span[0] - AT_A_STOP <= angle <= span[1] + AT_A_STOP:
                 continue
-            low, high, at = (f"{math.degrees(each):.4g}" for each in (*stops, angle))
-            if stops[0] > stops[1]:
+            low, high, at = (f"{math.degrees(each):.4g}" for each in (*span, angle))
+            if span[0] > span[1]:
                 allowed = "the lower end, then the upper"
             else:
                 allowed = f"around the reference pose, at {at}"
@@ -177,8 +180,8 @@ class Leg:
         angles = (self.abduction_angle, self.femur_angle, self.tibia_angle)
         if self.has_coxa:  # tibia, coxa, femur: outward, forward, up
             signs = (-self.side, 1.0, 1.0)
-            ranges = (self.tibia_range, None, self.femur_range)
-            angles = (self.tibia_angle, 0.0, self.femur_angle)
+            ranges = (self.tibia_range, self.coxa_range, self.femur_range)
+            angles = (self.tibia_angle, self.pointing, self.femur_angle)
         stops = []
         for sign, (low, high), angle in zip(
             signs, (each or FREE for each in ranges), angles, strict=True

@@ -116,6 +116,18 @@ def test_stops_are_angles_of_the_links(tmp_path: Path) -> None:
     assert np.isinf(plain_robot().legs[0].stops).all()
 
 
+def test_stops_of_a_coxa_are_angles_forward_of_straight_outward(tmp_path: Path) -> None:
+    own = (
+        '[leg]\nchain = ["coxa", "femur", "tibia"]\npointing = 30\ncoxa_range = [-20, 50]\n'
+        "femur_range = [10, 100]"
+    )
+    robot = load_robot(written(tmp_path, TEXT.replace("[leg]", own)))
+    for leg in robot.legs:
+        np.testing.assert_allclose(np.degrees(leg.stops[1:]), [[-50, 20], [10 - 43, 100 - 43]])
+    with pytest.raises(RobotDescriptionError, match="coxa_range is -20 to 25 deg; allowed: around"):
+        load_robot(written(tmp_path, TEXT.replace("[leg]", own.replace("50]", "25]"))))
+
+
 def test_the_stall_torque_bends_a_stop_by_one_degree_unless_the_file_says_more() -> None:
     servo = plain_robot().servo
     assert servo.stop == (pytest.approx(servo.stall_torque * 180.0 / math.pi), servo.damping)
@@ -246,6 +258,11 @@ def test_a_file_elsewhere_can_be_loaded(tmp_path: Path) -> None:
             "tibia_angle = 92.0",
             'tibia_angle = 92.0\nabduction_angle = 5.0\nchain = ["coxa", "femur"]',
             "abduction_angle is 5 deg and chain is ['coxa', 'femur']; allowed with it: 0",
+        ),
+        (
+            "tibia_angle = 92.0",
+            "tibia_angle = 92.0\ncoxa_range = [-30.0, 30.0]",
+            "coxa_range is given and chain is ['abduction', 'hip', 'knee']; allowed with it: none",
         ),
         (
             'name = "RH"',
