@@ -133,6 +133,11 @@ class Start:
         return mean_leg_length(self.robot)
 
     @property
+    def has_many_legs(self) -> bool:
+        """Whether there are more legs than the paper's robot has."""
+        return len(self.robot.legs) > FEW_LEGS
+
+    @property
     def gravity_speed(self) -> float:
         """Speed that counts as one for this size, sqrt(g L) [m/s] (a Froude number of 1)."""
         return math.sqrt(9.81 * self.length)

@@ -13,10 +13,11 @@ from typing import Any, Final
 import numpy as np
 
 from apnc.loop.experiment import Experiment
-from apnc.tune.design import Candidate, Start
+from apnc.tune.design import FEW_LEGS, Candidate, Start
 from apnc.varied import varied
 from apnc_plant.conditions import Conditions
 from apnc_plant.robot import RobotDescription
+from apnc_plant.robot.size import mean_leg_length
 from apnc_plant.step import longest_step, own_step
 
 WALK_S: Final = 15.0
@@ -45,6 +46,15 @@ RANGE_SEEDS: Final = 4
 
 MI_COUNT: Final = 5
 """Number of MI at which a candidate walks in a generation, and in a validation."""
+
+AIR_COUNT: Final = 3
+"""Number of MI at which robots with more than four legs are let down from the air in a generation:
+in which pattern their legs start decides more of their gait."""
+
+LEG_OFF: Final = 0.0033
+"""How far the height of every leg by itself is off at most, in leg lengths, on a body that is off;
+more than four legs only. Of three legs more than carry a robot, tenths of a millimetre decide
+which ones bear its weight."""
 
 BODIES: Final = 2
 """Number of bodies of a generation; runs share them, since one takes milliseconds to make."""
@@ -119,7 +129,7 @@ def of_generation(
         *(("apc", float(share), Conditions()) for share in alone),
         ("payload", float(rng.uniform()), Conditions(payload=PAYLOAD * start.robot.mass)),
         ("sensor", float(rng.uniform()), _broken(start, dead)),
-        ("air", float(rng.uniform()), _let_down(start)),
+        *(("air", share, _let_down(start)) for share in _airs(start, rng)),
     ]
     seeds = rng.integers(_SEEDS, size=len(plan)).tolist()
     found = []
@@ -146,7 +156,10 @@ def of_check(
     seconds: float = 20.0,
     extra: Extra | None = None,
 ) -> list[Task]:
-    """Runs of a check during a search: the whole MI range with and without couplings."""
+    """Runs of a check during a search: the whole MI range with and without couplings.
+
+    More than four legs are let down from the air over the whole range as well.
+    """
     shares = np.linspace(_LEAST, _MOST, count)
     seeds = range(_SEEDS, _SEEDS + 2 * count)
     plan = [(kind, float(share)) for kind in ("walk", "apc") for share in shares]
@@ -154,6 +167,11 @@ def of_check(
         _task(start, each, kind, share, seconds, Conditions(), seed=seed)
         for (kind, share), seed in zip(plan, seeds, strict=True)
     ]
+    if start.has_many_legs:
+        tasks += [
+            _task(start, each, "air", float(share), seconds, _let_down(start), seed=seed)
+            for share, seed in zip(shares, seeds, strict=False)
+        ]
     if extra is None:
         return tasks
     others = (extra(start, each, [each.robot], number) for number in range(3))
@@ -191,10 +209,16 @@ def of_validation(start: Start, each: Candidate, seeds: int) -> Iterator[Task]:
         middle = shares[MI_COUNT // 2]
         loaded = Conditions(payload=PAYLOAD * each.robot.mass)
         broken = _broken(start, legs[seed % len(legs)])
-        for kind, conditions in (
-            ("payload", loaded), ("sensor", broken), ("air", _let_down(start)),
-        ):  # fmt: skip
+        for kind, conditions in (("payload", loaded), ("sensor", broken)):
             yield _task(start, each, kind, middle, CHECK_S, conditions, seed=seed)
+        for share in shares if start.has_many_legs else [middle]:
+            yield _task(start, each, "air", share, CHECK_S, _let_down(start), seed=seed)
+
+
+def _airs(start: Start, rng: np.random.Generator) -> list[float]:
+    """Where in the MI range the robots of a generation are let down from the air, 0 to 1."""
+    count = AIR_COUNT if start.has_many_legs else 1
+    return [float(x) for x in (np.arange(count) + rng.uniform(size=count)) / count]
 
 
 def _broken(start: Start, leg: str) -> Any:
@@ -237,11 +261,21 @@ def _task(
 def _off(robot: RobotDescription, seed: int) -> RobotDescription:
     """The robot with every uncertain number off by chance, but for the delay of its sensors.
 
-    Robots walk side by side only with one delay.
+    Robots walk side by side only with one delay. Of more than four legs each has a height of its
+    own, too.
     """
-    found = varied(robot, MARGIN, np.random.default_rng(seed))
+    rng = np.random.default_rng(seed)
+    found = varied(robot, MARGIN, rng)
+    legs = found.legs
+    if len(legs) > FEW_LEGS:
+        off = LEG_OFF * mean_leg_length(robot) * rng.uniform(-1.0, 1.0, size=len(legs))
+        legs = tuple(
+            replace(leg, mount=(leg.mount[0], leg.mount[1], leg.mount[2] + float(up)))
+            for leg, up in zip(legs, off, strict=True)
+        )
     return replace(
         found,
+        legs=legs,
         sensor=replace(found.sensor, delay=robot.sensor.delay),
         servo=replace(found.servo, latency=robot.servo.latency),
     )
