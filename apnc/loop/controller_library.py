@@ -105,16 +105,21 @@ class ControllerLibrary:
         ffi, _ = library()
         self.guid = ffi.new("char[]", description.guid.encode())
         addresses = {
-            member: ffi.cast(
-                "void *", ctypes.cast(self._library[f"fmi2{name}"], ctypes.c_void_p).value or 0
-            )
-            for member, name in _FUNCTIONS.items()
+            member: ffi.cast("void *", self.address(name)) for member, name in _FUNCTIONS.items()
         }
         self.functions = ffi.new("loop_functions *", addresses)
         self._scalars = list(scalars(self.n_legs, self._naming))
         self._read_back = self._parameters_of_c()
         self.recording = lru_cache(self._recording)
         self._starts = lru_cache(self._new_starts)
+
+    def address(self, name: str) -> int:
+        """Address of a function of FMI 2.0, such as ``DoStep``."""
+        return ctypes.cast(self._library[f"fmi2{name}"], ctypes.c_void_p).value or 0
+
+    def references(self, *names: str) -> list[int]:
+        """Value references of variables, each with an entry per leg or of its own."""
+        return [member.value_reference for name in names for member in self._members[name]]
 
     def _recording(self, signals: frozenset[str] | None) -> Recording:
         """How C reads and records the controller; one object for each choice of signals.

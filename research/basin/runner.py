@@ -10,14 +10,15 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, Final
 
-from apnc.loop.batch import Stop
+from apnc.loop.batch import Lanes, Stop, lanes_of
 from apnc.loop.engines import COMPILED
 from apnc.loop.experiment import Experiment
 from apnc.studies.registry import Entry
 from apnc.studies.results import Result, columns_of, id_of
 from apnc.studies.store import Store
 from apnc.studies.study import Trial
-from research.basin.starts import RANDOM, found_in, outputs_at, phases_of, starts_of, walk_from
+from apnc.studies.workers import CHUNK
+from research.basin.starts import RANDOM, found_in, outputs_at, phases_of, starts_of, walks_from
 
 ENTRY: Final = Entry("basin", "Where walks end", package="research")
 
@@ -63,28 +64,44 @@ def grid_of(
     return trials
 
 
-def result_of(trial: Trial) -> Result:
-    """Walk, and say where it ended."""
-    experiment = trial.experiment
-    phases = phases_of(trial.cell["start"], len(experiment.description.legs), trial.cell["seed"])
-    walk = walk_from(experiment, *outputs_at(experiment, phases))
-    found = found_in(walk, experiment.description.weight, experiment.Ts)
-    return {"study": trial.study, "key": trial.id.key, **trial.cell, **found}
+def results_of(trials: Sequence[Trial]) -> list[Result]:
+    """Walk trials that can walk side by side, and say where they ended."""
+    starts = [
+        outputs_at(e, phases_of(trial.cell["start"], len(e.description.legs), trial.cell["seed"]))
+        for trial in trials
+        for e in [trial.experiment]
+    ]
+    results = []
+    for index, walk in walks_from([trial.experiment for trial in trials], starts):
+        trial = trials[index]
+        found = found_in(walk, trial.experiment.description.weight, trial.experiment.Ts)
+        results.append({"study": trial.study, "key": trial.id.key, **trial.cell, **found})
+    return results
+
+
+def chunks_of(trials: Sequence[Trial]) -> Iterator[list[Trial]]:
+    """Trials that can walk side by side, a few at a time."""
+    kinds: dict[Lanes, list[Trial]] = {}
+    for trial in trials:
+        kinds.setdefault(lanes_of(trial.experiment), []).append(trial)
+    for kind in kinds.values():
+        for at in range(0, len(kind), CHUNK):
+            yield kind[at : at + CHUNK]
 
 
 def walked(trials: Sequence[Trial], workers: int, stop: Stop) -> Iterator[Result]:
     """Results as walks end. No walk begins after ``stop`` has returned True."""
-    left = iter(trials)
+    left = chunks_of(trials)
     with ProcessPoolExecutor(workers, initializer=_leave_interrupts_to_parent) as executor:
-        running: set[Future[Result]] = set()
+        running: set[Future[list[Result]]] = set()
         while True:
             wanted = 0 if stop() else 2 * workers - len(running)
-            running |= {executor.submit(result_of, trial) for trial in islice(left, wanted)}
+            running |= {executor.submit(results_of, chunk) for chunk in islice(left, wanted)}
             if not running:
                 return
             done, running = wait(running, return_when=FIRST_COMPLETED)
             for future in done:
-                yield future.result()
+                yield from future.result()
 
 
 def _leave_interrupts_to_parent() -> None:

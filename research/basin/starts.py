@@ -1,11 +1,9 @@
-"""Walks that begin at any phases of the oscillators, in the controller in numpy.
-
-The FMU starts all oscillators alike. Its reference in numpy gives the same outputs, and its
-oscillators can be put anywhere on their cycle before the first tick.
-"""
+"""Walks that begin at any phases of the oscillators."""
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
@@ -13,16 +11,19 @@ from typing import Any, Final
 import numpy as np
 
 from apnc import metrics
+from apnc.loop.batch import Batch, Run, contacts_of, lanes_of
 from apnc.loop.experiment import Experiment
-from apnc.loop.simulate import plant_of
-from apnc_core.controller import Controller
-from apnc_core.interface import Inputs, Parameters
+from apnc_core.interface import Parameters
 from apnc_core.types import Array
+from research.basin.apart import begun_at
 from research.modes.gaits import CANDIDATES, gait_of, mirrored
 from research.modes.returns import Cycle, free_cycle
 
 RANDOM: Final = "random"
 """Name of a start at phases by chance."""
+
+SIGNALS: Final = frozenset({"o1", "o2", "foot_force"})
+"""Signals of a record that a walk keeps."""
 
 Found = dict[str, Any]
 
@@ -77,27 +78,33 @@ def _parameters(experiment: Experiment) -> Parameters:
     return Parameters(**experiment.parameters())  # type: ignore[arg-type]  # checked per name
 
 
-def walk_from(experiment: Experiment, o1: Array, o2: Array) -> Walk:
-    """Walk a robot whose oscillators begin at these outputs.
+def walks_from(
+    experiments: Sequence[Experiment], starts: Sequence[tuple[Array, Array]]
+) -> Iterator[tuple[int, Walk]]:
+    """Walk robots whose oscillators begin at these outputs, side by side in C.
 
     Args:
-        experiment: what is run. Its MI is one value.
-        o1, o2: outputs of every oscillator at the first tick, shape (n_legs,).
+        experiments: what is run; they must have in common what ``Lanes`` names.
+        starts: o1 and o2 of every oscillator at the first tick, shape (n_legs,) each.
+
+    Yields:
+        Index of an experiment, and its walk, as the walks end.
     """
-    assert isinstance(experiment.mi, float)
-    controller, plant = Controller(_parameters(experiment), len(o1)), plant_of(experiment)
-    controller.circuits.o1, controller.circuits.o2 = o1, o2
-    trace = plant.trace()
-    seen: list[tuple[Array, Array]] = []
-    for _ in range(experiment.ticks):
-        out = controller.tick(Inputs(grf=plant.grf(), MI=experiment.mi))
-        trace.take()
-        seen.append((out.o1, out.o2))
-        plant.advance(out.theta_hip, out.theta_knee, experiment.Ts)
-        if plant.fell:
-            break
-    first, second = (np.array(each) for each in zip(*seen, strict=True))
-    return Walk(first, second, trace.signals()["foot_force"][..., 2], plant.fell)
+    batch = Batch(lanes_of(experiments[0]), contacts_of(experiments), signals=SIGNALS)
+    left, walking = deque(range(len(experiments))), dict[Run, int]()
+    while left or walking:
+        while left and batch.free:
+            index = left.popleft()
+            run = Run(experiments[index], batch.controller, SIGNALS)
+            with begun_at(batch.controller, *starts[index]):
+                batch.begin(run)
+            walking[run] = index
+        for run in batch.walk(max(experiment.ticks for experiment in experiments)):
+            record = run.record()
+            signals = record.signals
+            force = signals["foot_force"][..., 2]
+            yield walking.pop(run), Walk(signals["o1"], signals["o2"], force, record.end == "fell")
+    batch.close()
 
 
 def found_in(walk: Walk, weight: float, Ts: float) -> Found:

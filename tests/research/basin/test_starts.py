@@ -9,6 +9,10 @@ import numpy as np
 import pytest
 
 from apnc import Experiment, metrics, simulate
+from apnc.loop.fmu_controller import FmuError
+from apnc.loop.simulate import plant_of
+from apnc_core.controller import Controller
+from apnc_core.interface import Inputs, Parameters
 from research.basin import runner
 from research.basin.ends import counts, counts_table, stacked
 from research.basin.starts import (
@@ -18,7 +22,7 @@ from research.basin.starts import (
     outputs_at,
     phases_of,
     starts_of,
-    walk_from,
+    walks_from,
 )
 from research.modes.gaits import CANDIDATES, mirrored
 
@@ -46,13 +50,40 @@ def test_the_oscillators_begin_at_the_phases() -> None:
     assert np.abs(metrics.wrap(seen - phases)).max() < 0.3  # the angle grows unevenly
 
 
+def walk_in_numpy(experiment: Experiment, o1: np.ndarray, o2: np.ndarray) -> Walk:
+    """The same walk under the readable controller, whose state can be written."""
+    p = Parameters(**experiment.parameters())  # type: ignore[arg-type]
+    controller, plant = Controller(p, len(o1)), plant_of(experiment)
+    controller.circuits.o1, controller.circuits.o2 = o1, o2
+    trace = plant.trace()
+    seen = []
+    for _ in range(experiment.ticks):
+        out = controller.tick(Inputs(grf=plant.grf(), MI=experiment.mi))  # type: ignore[arg-type]
+        trace.take()
+        seen.append((out.o1, out.o2))
+        plant.advance(out.theta_hip, out.theta_knee, experiment.Ts)
+    first, second = (np.array(each) for each in zip(*seen, strict=True))
+    return Walk(first, second, trace.signals()["foot_force"][..., 2], plant.fell)
+
+
 @pytest.mark.parametrize("controller", ["apc", "apnc"])
-def test_from_the_start_of_the_fmu_the_walk_is_that_of_the_fmu(controller: str) -> None:
-    experiment = walk(3.0, mi=0.15, seed=1, controller=controller)
-    p, signals = experiment.parameters(), simulate(experiment).signals
-    begun = walk_from(experiment, np.full(4, p["o1_start"]), np.full(4, p["o2_start"]))
-    assert np.abs(begun.o1 - signals["o1"]).max() < 1e-9
-    assert np.abs(begun.force - signals["foot_force"][..., 2]).max() < 1e-6
+def test_the_oscillators_of_the_fmu_begin_apart(controller: str) -> None:
+    experiments = [walk(3.0, mi=0.15, seed=seed, controller=controller) for seed in range(10)]
+    starts = [outputs_at(e, phases_of(RANDOM, 4, e.seed)) for e in experiments]
+    found = dict(walks_from(experiments, starts))
+    assert sorted(found) == list(range(10))
+    for index in (0, 9):  # one of the first, and one that took the lane of another
+        own = walk_in_numpy(experiments[index], *starts[index])
+        assert np.abs(own.o1 - found[index].o1).max() < 1e-9
+        assert np.abs(own.force - found[index].force).max() < 1e-6
+    after = simulate(walk(0.1)).signals["o1"][0]  # of the same FMU, all legs alike again
+    assert after == pytest.approx(0.01)
+
+
+def test_outputs_that_are_not_in_the_saved_state_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("research.basin.apart._HEADER", 10**6)
+    with pytest.raises(FmuError, match="does not hold the outputs of the oscillators"):
+        list(walks_from([walk(1.0, mi=0.15)], [(np.zeros(4), np.zeros(4))]))
 
 
 def made(phases: np.ndarray, seconds: float = 10.0, fell: bool = False) -> Walk:
