@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from statistics import median
 from typing import Final
 
-from apnc.tune.aims import AIM_LIFT, AIM_SLIP
+from apnc.tune.aims import AIM_ALONE, AIM_LIFT, AIM_SLIP
+from apnc.tune.design import MI_AIMED
 from apnc.tune.measured import Measured
 
 LEAST: Final = 0.5
-"""Least part of the range that is aimed at, in even steps of log MI [1]: less would be no range."""
+"""Least range, as a share of ``MI_AIMED`` on a logarithmic scale [1]: less would be no range."""
 
 DIGITS: Final = 3
 """Significant digits of an end of the range."""
@@ -18,36 +21,40 @@ DIGITS: Final = 3
 def found_range(mi: tuple[float, float], runs: Sequence[Measured]) -> tuple[float, float]:
     """The longest part of an MI range over which a robot walks as it should.
 
-    It is that in which all its walks, with and without couplings, are good and its feet lift and
-    hold as aimed at; if that is too short, that in which all are good; then that in which it walks
-    well with couplings; else the whole range.
+    It is that in which the robot reaches its aims at every MI; if that is too short, that in which
+    its gait forms and walks as often as is aimed at, with and without couplings; then that in which
+    it does so with couplings; else the whole range.
 
     Args:
         mi: the range, lowest and highest MI.
-        runs: of both kinds at even steps of log MI, see ``runs.of_range``.
+        runs: of both kinds at even steps of log MI, several of each, see ``runs.of_range``.
     """
     steps = sorted({run.share for run in runs})
     at = [[run for run in runs if run.share == share] for share in steps]
     low, high = mi
+    least = min(1.0, LEAST * math.log(MI_AIMED[1] / MI_AIMED[0]) / math.log(high / low))
     for fits in (_as_aimed, _good, _with_couplings):
-        begin, end = _longest([all(map(fits, each)) for each in at])
-        if end - begin >= LEAST * (len(steps) - 1):
+        begin, end = _longest([fits(each) for each in at])
+        if end - begin >= least * (len(steps) - 1):
             shares = steps[begin], steps[end]
             first, last = (float(f"{low * (high / low) ** s:.{DIGITS}g}") for s in shares)
             return max(first, low), min(last, high)
     return mi
 
 
-def _with_couplings(run: Measured) -> bool:
-    return run.good or run.kind == "apc"
+def _with_couplings(runs: Sequence[Measured]) -> bool:
+    return all(run.good for run in runs if run.kind == "walk")
 
 
-def _good(run: Measured) -> bool:
-    return run.good
+def _good(runs: Sequence[Measured]) -> bool:
+    alone = [run.good for run in runs if run.kind == "apc"]
+    return _with_couplings(runs) and sum(alone) >= AIM_ALONE * len(alone)
 
 
-def _as_aimed(run: Measured) -> bool:
-    return run.good and (run.kind == "apc" or (run.lift >= AIM_LIFT and run.slip <= AIM_SLIP))
+def _as_aimed(runs: Sequence[Measured]) -> bool:
+    walks = [run for run in runs if run.kind == "walk"]
+    lift, slip = (median(getattr(run, name) for run in walks) for name in ("lift", "slip"))
+    return _good(runs) and lift >= AIM_LIFT and slip <= AIM_SLIP
 
 
 def _longest(good: Sequence[bool]) -> tuple[int, int]:

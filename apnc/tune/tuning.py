@@ -99,8 +99,9 @@ def tune(
         minutes: how long to search [min]; ``MINUTES`` if neither this nor ``candidates`` is given.
         candidates: how many candidates to try; 0: the robot of the file alone.
         seed: of the optimiser and all runs, 1 to 2^20.
-        mi: MI range that is aimed at; ``MI_AIMED``, or ``MI_OF_PAPER`` if omitted. The search may
-            scale it, but not for the paper.
+        mi: MI range that is aimed at. If omitted, it is ``MI_OF_PAPER`` for the paper, that of the
+            file near it, if it has one, and else ``MI_AIMED``. The search may scale it, but not
+            for the paper.
         paper: judge by the paper's other experiments as well: update rates, states S1 to S3,
             payload, a damaged leg, turns, and a speed that doubles from MI 0.15 to 0.40.
         allowed: what may be changed; the defaults of :class:`Allowed` if omitted.
@@ -120,11 +121,11 @@ def tune(
         RuntimeError: a package of the extra ``tune`` is missing.
         Stopped: it was stopped before anything was found.
     """
-    mi = mi or (MI_OF_PAPER if paper else MI_AIMED)
+    begun, description = time.perf_counter(), load_robot(robot)
+    mi = mi or _usual_range(description, paper=paper, near=near)
     _check(minutes, candidates, seed, mi, workers, seeds)
     _check_packages()
     allowed = allowed or Allowed()
-    begun, description = time.perf_counter(), load_robot(robot)
     target(len(description.legs))
     limit = None if candidates is not None and minutes is None else 60.0 * (minutes or MINUTES)
     start = Start(
@@ -199,6 +200,15 @@ def _within(start: Start, best: Candidate, evaluator: Evaluator) -> RobotDescrip
     return replace(best.robot, mi_range=found_range(best.robot.mi_range, runs))
 
 
+def _usual_range(
+    robot: RobotDescription, *, paper: bool, near: bool
+) -> tuple[float, float]:
+    """MI range that is aimed at where none is asked for."""
+    if paper:
+        return MI_OF_PAPER
+    return (robot.mi_range if near else None) or MI_AIMED
+
+
 def _usual(candidate: Candidate) -> float:
     """MI to walk at where none is asked for: the middle of the range."""
     return float(f"{candidate.mi(0.5):.2g}")
@@ -244,6 +254,6 @@ def _command(robot: str | Path, seed: int, count: Count, start: Start, allowed: 
         if on
     ]
     words += ["--keep", ",".join(allowed.kept)] if allowed.kept else []
-    if start.mi != (MI_OF_PAPER if start.paper else MI_AIMED):
+    if start.mi != _usual_range(start.robot, paper=start.paper, near=start.near):
         words += ["--mi", f"{start.mi[0]:g},{start.mi[1]:g}"]
     return shlex.join(map(str, words))

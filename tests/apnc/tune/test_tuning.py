@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,7 @@ from apnc.tune import Allowed, Stopped, Tuned, tune
 from apnc.tune.design import MI_AIMED, Start, variables_for
 from apnc.tune.log import read_rows
 from apnc.tune.search import Best, Count, _Strategy
+from apnc.tune.tuned_file import path_of
 from apnc_plant.robot import load_robot
 
 FEW: dict[str, Any] = {"candidates": 8, "seeds": 1}
@@ -146,6 +148,19 @@ def test_a_search_that_stays_near_begins_with_small_steps() -> None:
         return float(np.abs(np.array(_Strategy(start, 1).ask()) - start.first()).max())
 
     assert farthest(near=True) < 0.3 < farthest(near=False)
+
+
+def test_a_search_that_stays_near_aims_at_the_mi_range_of_the_file(tmp_path: Path) -> None:
+    file = tmp_path / "tuned.toml"
+    text = path_of("lilibot").read_text("utf-8").replace("[0.04, 0.40]", "[0.12, 0.26]")
+    file.write_text(text, encoding="utf-8")
+    aimed, scale = {}, math.sqrt(0.12 * 0.26 / (0.08 * 0.28))
+    for near in (False, True):
+        found = tune(file, candidates=0, seeds=1, near=near)
+        aimed[near] = found.best.candidate.robot.mi_range
+        assert "--mi" not in found.command
+    assert aimed[True] == pytest.approx((0.12, 0.26))
+    assert aimed[False] == pytest.approx((0.08 * scale, 0.28 * scale))
 
 
 @pytest.mark.parametrize(
