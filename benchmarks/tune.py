@@ -135,7 +135,7 @@ def judged(plan: Plan, found: Sequence[Measured]) -> list[float]:
     """Cost of every candidate."""
     each = len(plan[0])
     parts = (found[k * each : (k + 1) * each] for k in range(len(plan)))
-    return [total(own, part, paper=False) for own, part in zip(plan, parts, strict=True)]
+    return [total(own, part) for own, part in zip(plan, parts, strict=True)]
 
 
 def in_c(start: Start, plan: Plan, threads: int) -> float:

@@ -12,7 +12,7 @@ from typing import Any, Final
 from apnc.loop.batch import Stop
 from apnc.loop.many import walk_many
 from apnc.loop.record import Record
-from apnc.tune.costs import total
+from apnc.tune.costs import total, weights_of
 from apnc.tune.design import Start, candidate
 from apnc.tune.measured import SIGNALS, Measured
 from apnc.tune.paper import measured_of_paper, of_paper
@@ -112,7 +112,7 @@ def _costs(
     found = _walked(start, tasks, stop)
     each = len(plan[0])
     costs = [
-        total(plan[k], found[k * each : (k + 1) * each], paper=start.paper)
+        total(plan[k], found[k * each : (k + 1) * each], weights_of(start))
         for k in range(len(plan))
     ]
     return costs, seconds(tasks)

@@ -13,7 +13,7 @@ from typing import Any, Final
 import numpy as np
 
 from apnc.extras import missing
-from apnc.tune.costs import total
+from apnc.tune.costs import total, weights_of
 from apnc.tune.design import Candidate, Start, candidate
 from apnc.tune.evaluate import Evaluator, Stopped, extra_of, seconds
 from apnc.tune.log import Log
@@ -166,7 +166,7 @@ class _Checks:
         runs = tuple(self._evaluator(tasks))
         self._count.simulated += seconds(tasks)
         checked = Best(
-            tuple(map(float, x)), found, runs, total(tasks, runs, paper=self._start.paper)
+            tuple(map(float, x)), found, runs, total(tasks, runs, weights_of(self._start))
         )
         log.write_check(self._count.generations, checked.cost)
         self._count.checked = self._count.candidates

@@ -200,9 +200,7 @@ def _within(start: Start, best: Candidate, evaluator: Evaluator) -> RobotDescrip
     return replace(best.robot, mi_range=found_range(best.robot.mi_range, runs))
 
 
-def _usual_range(
-    robot: RobotDescription, *, paper: bool, near: bool
-) -> tuple[float, float]:
+def _usual_range(robot: RobotDescription, *, paper: bool, near: bool) -> tuple[float, float]:
     """MI range that is aimed at where none is asked for."""
     if paper:
         return MI_OF_PAPER

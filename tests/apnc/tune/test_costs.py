@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from apnc.tune.costs import MILD, OF_PAPER, USUAL, Weights, cost_of
+from apnc.tune.costs import MILD, NEAR, OF_PAPER, USUAL, Weights, cost_of
 from apnc.tune.measured import MAX_SLIP, MIN_LIFT, MIN_SPEED, Measured
 
 WALK = Measured(
@@ -25,7 +25,7 @@ def fallen(kind: str, at: float) -> Measured:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("weights", [USUAL, OF_PAPER])
+@pytest.mark.parametrize("weights", [USUAL, NEAR, OF_PAPER])
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_fall_costs_more_than_whatever_a_robot_does_that_stays_up(
     kind: str, weights: Weights
@@ -51,6 +51,13 @@ def test_a_worse_run_costs_more_also_where_costs_are_large() -> None:
     ]
     assert costs[0] < MILD < costs[-1]
     assert costs == sorted(set(costs))
+
+
+def test_near_a_tuned_robot_one_foot_below_the_aim_counts() -> None:
+    for worse in (replace(WALK, lift=0.045), replace(WALK, slip=0.2)):
+        assert cost_of(worse, NEAR) > cost_of(WALK, NEAR) + 0.4
+        assert cost_of(worse) == cost_of(WALK)
+    assert cost_of(WALK, NEAR) == cost_of(WALK)
 
 
 def test_a_gait_on_the_spot_or_on_dragging_feet_is_not_good() -> None:
