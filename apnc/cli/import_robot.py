@@ -21,6 +21,10 @@ def import_robot(
         str | None,
         Option(help="Pose to walk about: a keyframe, or zero. Default: a stance that trots."),
     ] = None,
+    forward: Annotated[
+        str | None,
+        Option(help="Direction of the file that points forward: x, -x, y or -y. Default: found."),
+    ] = None,
     output: Annotated[Path, file_option("Robot file to write. Default: robot.toml.")] = Path(
         "robot.toml"
     ),
@@ -34,7 +38,7 @@ def import_robot(
     apart({"--output": output}, {"the model": [file]})
     if output.suffix != ".toml":
         raise ValueError(f"--output is {output}; allowed: a name that ends in .toml")
-    robot = read(file, pose)
+    robot = read(file, pose, forward)
     writable(output, file=True).write_text(robot.toml, encoding="utf-8")
     _say(robot, file)
     say(f"{output}: walk it with\napnc walk --robot {output} --engine compiled")
@@ -57,9 +61,10 @@ def _say(found: ImportedRobot, file: Path) -> None:
         ),
         "here", "abduction", "hip", "knee", "foot",
     )  # fmt: skip
+    say(f"\nforward: {found.forward} of the file; {found.facing} (--forward)")
     stance = found.stance
     say(
-        f"\nstance: hips {stance.ratio:.3g} and middle of the feet {stance.behind:.3g} behind the "
+        f"stance: hips {stance.ratio:.3g} and middle of the feet {stance.behind:.3g} behind the "
         "centre of mass, in halves of the distance of neighbouring hips"
     )
     say(f"update rate: {robot.rate:.3g} Hz, at which it moves as Lilibot does at 60 Hz")

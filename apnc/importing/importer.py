@@ -10,10 +10,10 @@ from typing import Final
 
 import numpy as np
 
+from apnc.importing.forward import faced
 from apnc.importing.joint_map import joint_maps
-from apnc.importing.leg_reading import leg_geometry
 from apnc.importing.legs import LegGeometry
-from apnc.importing.limbs import Limbs, limbs_of
+from apnc.importing.limbs import Limbs
 from apnc.importing.mjcf import read_mjcf
 from apnc.importing.model import Model, ModelFileError
 from apnc.importing.robot_file import Found, robot_text
@@ -38,6 +38,9 @@ class ImportedRobot:
         toml: its robot file.
         robot: the same as a robot.
         legs: what was found of its legs, in the order of ``robot.legs``.
+        forward: the direction of the file that points forward, one of ``FORWARD`` of
+            :mod:`apnc.importing.forward`.
+        facing: how that is known, in words.
         stance: how it stands, which is its reference pose.
         estimates: numbers that are not the file's.
         dropped: what of the file is not in the robot, in words.
@@ -46,18 +49,24 @@ class ImportedRobot:
     toml: str
     robot: RobotDescription
     legs: tuple[LegGeometry, ...]
+    forward: str
+    facing: str
     stance: Stance
     estimates: tuple[Estimate, ...]
     dropped: tuple[str, ...]
 
 
-def import_robot(path: str | Path, pose: str | None = None) -> ImportedRobot:
+def import_robot(
+    path: str | Path, pose: str | None = None, forward: str | None = None
+) -> ImportedRobot:
     """Read a robot from URDF or MJCF.
 
     Args:
-        path: the model file; its x axis points forward, y to the left, z up.
+        path: the model file; its z axis points up.
         pose: name of a pose of the file, or ``zero``, about which the robot is to walk; the rule
             of :func:`apnc.importing.stance.stance_by_rule` if omitted.
+        forward: direction of the file that points forward: ``x``, ``-x``, ``y`` or ``-y``; told
+            from the legs, see :func:`apnc.importing.forward.faced`, if omitted.
 
     Raises:
         ModelFileError: the file cannot be read, or the robot file cannot say what it holds.
@@ -66,7 +75,7 @@ def import_robot(path: str | Path, pose: str | None = None) -> ImportedRobot:
     path = Path(path)
     try:
         model = _read(path)
-        return _imported(model, path.name, pose)
+        return _imported(model, path.name, pose, forward)
     except ModelFileError as error:
         raise ModelFileError(f"{path.name}: {error}") from None
 
@@ -80,7 +89,7 @@ def _read(path: Path) -> Model:
     raise ModelFileError(f"its root is <{root.tag}>; allowed: <robot> (URDF) or <mujoco> (MJCF)")
 
 
-def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
+def _imported(model: Model, source: str, pose: str | None, forward: str | None) -> ImportedRobot:
     angles = {}
     if pose is not None:
         poses: dict[str, Mapping[str, float]] = {ZERO: {}, **model.poses}
@@ -92,8 +101,8 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
             raise ModelFileError(
                 f"{part.name}: its mass is {part.body.mass:g} kg; allowed: 0 or more"
             )
-    limbs = limbs_of(model, angles)
-    legs = _ordered([leg_geometry(leg) for leg in limbs.legs])
+    facing = faced(model, angles, forward)
+    limbs, legs = facing.limbs, _ordered(facing.legs)
     longest = max(max(leg.femur, leg.tibia) for leg in legs)
     if longest > LONGEST:
         raise ModelFileError(
@@ -115,13 +124,17 @@ def _imported(model: Model, source: str, pose: str | None) -> ImportedRobot:
     length = float(np.mean([leg.femur + leg.tibia for leg in legs]))
     guessed = guess(legs, Size(mass, length, len(legs)), 1.0 / default.Ts)
     joints = joint_maps(names, legs, stance)
-    found = Found(model.name, trunk, _outline(limbs), names, legs, stance, joints, guessed)
+    found = Found(
+        model.name, trunk, _outline(limbs), names, legs, facing.forward, stance, joints, guessed
+    )
     text = robot_text(found, source)
     robot = _loaded(text.toml)
     return ImportedRobot(
         text.toml,
         robot,
         legs,
+        facing.forward,
+        facing.why,
         stance,
         guessed.estimates,
         (

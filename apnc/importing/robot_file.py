@@ -52,6 +52,7 @@ class Found:
             (2, 3); None without shapes.
         names: of the legs.
         legs: the legs.
+        forward: the direction of the model file that x is.
         stance: how they stand.
         joints: how their joints are counted in the file.
         guessed: what the file does not say.
@@ -62,6 +63,7 @@ class Found:
     outline: Array | None
     names: tuple[str, ...]
     legs: tuple[LegGeometry, ...]
+    forward: str
     stance: Stance
     joints: tuple[JointMap, ...]
     guessed: Guessed
@@ -108,6 +110,7 @@ def robot_text(found: Found, source: str) -> Text:
     }  # fmt: skip
     lines = [
         f"# Imported from {source}. SI units, angles in degrees; x forward, y to the left, z up.",
+        *([] if found.forward == "x" else [f"# x here is {found.forward} of that file."]),
         "# [legs.joints]: the joints of that file; its angle = offset + sign times the angle here.",
         "",
         f"name = {json.dumps(found.name, ensure_ascii=False)}",
