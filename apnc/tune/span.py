@@ -23,7 +23,8 @@ def found_range(mi: tuple[float, float], runs: Sequence[Measured]) -> tuple[floa
 
     It is that in which the robot reaches its aims at every MI; if that is too short, that in which
     its gait forms and walks as often as is aimed at, with and without couplings; then that in which
-    it does so with couplings; else the whole range.
+    it does so with couplings; else the whole range. At its ends, beyond which the robot does worse,
+    all walks are good if enough is left: a count of so few is uncertain there.
 
     Args:
         mi: the range, lowest and highest MI.
@@ -36,6 +37,8 @@ def found_range(mi: tuple[float, float], runs: Sequence[Measured]) -> tuple[floa
     for fits in (_as_aimed, _good, _with_couplings):
         begin, end = _longest([fits(each) for each in at])
         if end - begin >= least * (len(steps) - 1):
+            if fits is not _with_couplings:
+                begin, end = _surer(begin, end, at, least * (len(steps) - 1))
             shares = steps[begin], steps[end]
             first, last = (float(f"{low * (high / low) ** s:.{DIGITS}g}") for s in shares)
             return max(first, low), min(last, high)
@@ -55,6 +58,18 @@ def _as_aimed(runs: Sequence[Measured]) -> bool:
     walks = [run for run in runs if run.kind == "walk"]
     lift, slip = (median(getattr(run, name) for run in walks) for name in ("lift", "slip"))
     return _good(runs) and lift >= AIM_LIFT and slip <= AIM_SLIP
+
+
+def _surer(begin: int, end: int, at: Sequence[Sequence[Measured]], least: float) -> tuple[int, int]:
+    """The part without ends at which a walk fails, as far as it stays long enough."""
+    while end - begin - 1 >= least:
+        if not all(run.good for run in at[begin]):
+            begin += 1
+        elif not all(run.good for run in at[end]):
+            end -= 1
+        else:
+            break
+    return begin, end
 
 
 def _longest(good: Sequence[bool]) -> tuple[int, int]:

@@ -63,6 +63,15 @@ def test_feet_and_walks_without_couplings_count_as_the_aims_count_them() -> None
         assert found[0] == pytest.approx(mi(1), rel=1e-2), (where, what)
 
 
+def test_a_range_ends_where_every_walk_is_good_while_enough_is_left() -> None:
+    fails = {"strict": False}
+    bad = {("apc", 0): (1, fails), ("apc", 1): (1, fails), ("apc", 10): (1, fails)}
+    assert found_range(RANGE, some(bad)) == pytest.approx((mi(2), mi(9)), rel=1e-2)
+    everywhere = {("apc", k): (1, fails) for k in range(COUNT)}
+    low, high = found_range(RANGE, some(everywhere))
+    assert high / low == pytest.approx(4.0**0.5, rel=1e-2)
+
+
 def test_a_range_that_is_narrow_already_stays() -> None:
     bad = check({("walk", 0): {"strict": False}})
     assert found_range((0.15, 0.25), bad) == (0.15, 0.25)
