@@ -130,7 +130,7 @@ def plant_fmu(build: PlantBuild, progress: BuildProgress = lambda platform: None
     """
     model, files = build.model(), _files(build)
     pages = _pages(build, model)
-    key = hashlib.sha256(repr((build, model, __version__)).encode())
+    key = hashlib.sha256(repr((model, build.platforms, __version__)).encode())
     for name, content in sorted((files | _configured(build, "") | pages).items()):
         key.update(name.encode() + content)
     path = cached_path(key.hexdigest()[:16], model.identifier)

@@ -20,7 +20,6 @@ from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from full_robot import FULL, full_robot
 from lxml import etree, html
-from plain_robot import plain_text
 from plant_probe import LOADS, POSITION, TS, FMU2Plant, plant
 from stiff_robot import stiff_robot
 
@@ -42,6 +41,7 @@ from apnc_plant.variables import COMMANDS, TABLE, Condition
 from build_fmu.platforms import host_platform
 
 HOST = (host_platform(),)
+FULL_BUILD = PlantBuild(str(FULL), platforms=HOST)
 # legs that swing one after the other, so that the robot moves
 WAVE = [0.1, -0.1, 0.2, -0.2, 0.0, 0.1, 0.0, 0.1]
 
@@ -186,7 +186,7 @@ def test_every_output_is_that_of_the_plant_stepped_directly(
 
 
 def test_a_robot_with_every_key_is_that_of_the_plant_stepped_directly() -> None:
-    path = plant_fmu(PlantBuild(str(FULL), platforms=HOST))
+    path = plant_fmu(FULL_BUILD)
     for chosen, condition in STATES[:2]:
         walk_beside(path, full_robot(), chosen, condition)
 
@@ -476,13 +476,21 @@ def test_parameters_between_steps_that_make_the_step_too_long_are_refused(path: 
         robot.step()
 
 
-def test_a_robot_that_needs_a_shorter_step_brings_it(tmp_path: Path) -> None:
-    file = tmp_path / "stiff.toml"
-    file.write_text(plain_text().replace("damping = 430.0", "damping = 1000.0"))
-    build = PlantBuild(str(file), platforms=HOST)
-    with plant(plant_fmu(build)) as robot:
+def test_a_robot_that_was_moved_to_another_file_is_not_built_again(tmp_path: Path) -> None:
+    moved = tmp_path / "moved.toml"
+    moved.write_bytes(FULL.read_bytes())
+    there, here = (plant_fmu(PlantBuild(str(file), platforms=())) for file in (FULL, moved))
+    assert there == here
+    text = FULL.read_text().replace("[trunk]\nmass = ", "[trunk]\nmass = 1", 1)
+    assert text != FULL.read_text()
+    moved.write_text(text)
+    assert plant_fmu(PlantBuild(str(moved), platforms=())) != here
+
+
+def test_a_robot_brings_the_step_that_it_needs() -> None:
+    with plant(plant_fmu(FULL_BUILD)) as robot:
         robot.start()
-        assert robot.get(["step"])[0] == own_step(build.description()) < 1 / 960
+        assert robot.get(["step"])[0] == own_step(full_robot()) != own_step(load_robot("lilibot"))
         robot.step()
 
 
