@@ -80,6 +80,11 @@ print(rows[0]["key"], walked(apnc.simulate(experiment)))
 """
 
 
+def test_the_package_says_that_it_has_types() -> None:
+    assert (Path(apnc.__file__).parent / "py.typed").is_file()
+
+
+@pytest.mark.thorough  # mypy reads the whole package and what it imports
 @pytest.mark.parametrize(
     ("change", "error"),
     [

@@ -25,7 +25,7 @@ from research.contact.measure import GRADUAL, SUDDEN, errors, trot
 
 
 def walked(**fields: Any) -> tuple[Record, WalkFeatures]:
-    record = simulate(Experiment(**{"duration": 20.0} | fields))
+    record = simulate(Experiment(**{"duration": 20.0, "engine": "compiled"} | fields))
     return record, walk_features(record)
 
 
@@ -76,7 +76,8 @@ def test_the_hexapod_keeps_and_recalls_its_tripod_with_couplings_only(
     controller: str, keeps: bool
 ) -> None:
     when = replace(TIMELINE, lowered=0.0)  # started on the ground
-    found = judge(simulate(when.experiment(controller, 1, robot="hexapod")), when)
+    run = when.experiment(controller, 1, robot="hexapod", engine="compiled")
+    found = judge(simulate(run), when)
     assert found["kept"] is found["recovered"] is keeps
     assert found["front_stopped"] is found["in_phase"] is not keeps
 
@@ -146,7 +147,7 @@ def test_without_load_feedback_no_trot_forms() -> None:
 
 @pytest.mark.parametrize("controller", ["apnc", "apc"])
 def test_the_states_go_as_in_the_paper(controller: str) -> None:
-    record = simulate(TIMELINE.experiment(controller, 1))
+    record = simulate(TIMELINE.experiment(controller, 1, engine="compiled"))
     row = measure(record)
     assert row["state_S2"] and row["state_S3"] and row["state_fell"] is False
     if controller == "apnc":
@@ -167,10 +168,10 @@ def test_the_states_go_as_in_the_paper(controller: str) -> None:
 
 def test_the_default_step_is_fine_enough_for_the_contact() -> None:
     default = round(1.0 / 60.0 / Experiment().step)
-    finer = trot(GRADUAL, 2 * default)
-    coarse, own = (errors(trot(GRADUAL, n), finer) for n in (default // 2, default))
+    finer = trot(GRADUAL, 2 * default, "compiled")
+    coarse, own = (errors(trot(GRADUAL, n, "compiled"), finer) for n in (default // 2, default))
     assert coarse["force_error"] > own["force_error"] > 0.0
     assert coarse["distance_error_mm"] > own["distance_error_mm"] > 0.0
     assert own["chatter"] < 0.01 and coarse["chatter"] > 10 * own["chatter"]
     # damping that jumps in costs a higher peak
-    assert trot(SUDDEN, default).forces[..., 2].max() > 1.2 * own["peak_N"]
+    assert trot(SUDDEN, default, "compiled").forces[..., 2].max() > 1.2 * own["peak_N"]

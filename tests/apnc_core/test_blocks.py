@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -32,6 +33,14 @@ TROT = (math.pi, math.pi, 0.0)
 def run(controller: Controller, ticks: int, MI: float = 0.08) -> np.ndarray:
     """Outputs o1 of every leg without load, shape (ticks, n)."""
     return np.array([controller.tick(Inputs(NO_LOAD, MI=MI)).o1 for _ in range(ticks)])
+
+
+@cache
+def free_run() -> tuple[np.ndarray, np.ndarray]:
+    """Outputs of the oscillator without load at MI = 0.08, shape (4500,)."""
+    c = Controller()
+    ticks = [c.tick(Inputs(NO_LOAD, MI=0.08)) for _ in range(4500)]
+    return np.array([o.o1[0] for o in ticks]), np.array([o.o2[0] for o in ticks])
 
 
 def frequency(o1: np.ndarray, Ts: float) -> float:
@@ -143,16 +152,15 @@ RADIAL = {"forward_model": ForwardModel.radial_basis}
 
 def unloaded_cycle(ticks: int = 300) -> tuple[np.ndarray, np.ndarray]:
     """Outputs of a free oscillator on its cycle at MI = 0.08."""
-    c = Controller()
-    both = [(o.o1[0], o.o2[0]) for o in (c.tick(Inputs(NO_LOAD)) for _ in range(500 + ticks))]
-    o1, o2 = np.array(both[500:]).T
+    o1, o2 = (part[500 : 500 + ticks] for part in free_run())
+    assert len(o1) == ticks
     return o1, o2
 
 
 def test_the_knees_copy_expects_stance_a_quarter_of_a_cycle_earlier() -> None:
     def mean_phase(model: ForwardModel) -> complex:
         c = Controller(Parameters(forward_model=model))
-        ticks = [c.tick(Inputs(NO_LOAD)) for _ in range(3000)][500:]
+        ticks = [c.tick(Inputs(NO_LOAD)) for _ in range(1500)][500:]
         return sum(o.grf_expected[0] * complex(o.o1[0], o.o2[0]) for o in ticks)
 
     # the cycle turns clockwise, so what comes earlier lies further on counter-clockwise
@@ -212,12 +220,7 @@ def test_what_the_kernels_learned_is_kept_between_ticks_and_forgotten_at_a_reset
 
 def shifted_oscillators(phi: tuple[float, ...], ticks: int) -> tuple[np.ndarray, np.ndarray]:
     """Outputs of four free oscillators whose leg k leads leg 1 by phi_1k [rad]."""
-    c = Controller()
-    both = []
-    for _ in range(4000):
-        out = c.tick(Inputs(NO_LOAD, MI=0.08))
-        both.append((out.o1[0], out.o2[0]))
-    o = np.array(both)[1000:]
+    o = np.stack(free_run(), axis=1)[1000:]
     period = 1 / frequency(o[:, 0], P.Ts) / P.Ts
     leads = [0.0, *phi]
     start = [round(period + lead / (2 * math.pi) * period) for lead in leads]

@@ -22,6 +22,8 @@ from build_fmu.cache import cache_folder
 from build_fmu.options import BuildError, BuildOptions, host_platform
 
 SOURCES_ONLY = BuildOptions(platforms=())
+ALWAYS = [(4, "structured"), (6, "flat")]
+"""Legs and naming that the default run validates."""
 
 
 ZIG_CACHE = str(cache_folder() / "zig")  # of the session: the compiler's run time is not made anew
@@ -32,8 +34,14 @@ def description(fmu: bytes) -> etree._Element:
         return etree.fromstring(archive.read("modelDescription.xml"))
 
 
-@pytest.mark.parametrize("legs", [2, 4, 6, 8])
-@pytest.mark.parametrize("naming", ["structured", "flat"])
+FORMS = [
+    pytest.param(legs, naming, marks=[] if (legs, naming) in ALWAYS else [pytest.mark.thorough])
+    for legs in (2, 4, 6, 8)
+    for naming in ("structured", "flat")
+]
+
+
+@pytest.mark.parametrize(("legs", "naming"), FORMS)
 def test_fmpy_finds_no_problem(legs: int, naming: str, tmp_path: Path) -> None:
     path = tmp_path / "Apnc.fmu"
     path.write_bytes(fmu_bytes(BuildOptions(legs, naming, ())))

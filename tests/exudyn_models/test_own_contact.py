@@ -47,6 +47,7 @@ def forces_in_a_trot(plant: LeggedPlant, steps: int) -> np.ndarray:
     return np.reshape(forces, (60, steps, 4, 3)).mean(axis=1)
 
 
+@pytest.mark.thorough
 def test_where_both_laws_are_the_same_a_trot_feels_the_same_forces() -> None:
     # damping from first touch on, as Exudyn has it, needs a fine step: at 16 steps a tick the
     # forces are 5, 10 and 2 % apart, at 64 they are 0.9, 1.8 and 0.7 %, at 256 0.8, 0.7 and 0.2 %

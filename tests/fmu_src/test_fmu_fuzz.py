@@ -15,7 +15,7 @@ from apnc.system.plant_fmu import PlantBuild, plant_fmu
 from build_fmu.build import cached_fmu, host_fmu
 from build_fmu.options import BuildOptions
 
-SHORT, LONG = 250_000, 10_000_000
+BRIEF, SHORT, LONG = 50_000, 250_000, 10_000_000
 """Calls per seed."""
 
 PLANT_SHARE = 10
@@ -80,9 +80,12 @@ def check(program: Path, seed: int, calls: int) -> None:
     assert counted["discard"] > 0 or program.name.startswith("fmi3")
 
 
-@pytest.mark.parametrize(
-    "seed", [1, *(pytest.param(k, marks=pytest.mark.thorough) for k in range(2, 5))]
-)
+def test_some_random_calls(fuzz: Path) -> None:
+    check(fuzz, 1, BRIEF)
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("seed", range(2, 6))
 def test_a_million_random_calls(fuzz: Path, seed: int) -> None:
     check(fuzz, seed, SHORT)
 

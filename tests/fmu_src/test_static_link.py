@@ -33,7 +33,7 @@ def prefix(legs: int, fmi: int) -> str:
     return f"legs{legs}fmi{fmi}_"
 
 
-def compile_build(legs: int, fmi: int, folder: Path) -> list[Path]:
+def compile_build(legs: int, fmi: int, folder: Path, *flags: str) -> list[Path]:
     """Objects of one build and of its driver, functions of the standard prefixed."""
     folder.mkdir()
     options = BuildOptions(legs=legs, platforms=(), fmi=fmi)
@@ -45,16 +45,15 @@ def compile_build(legs: int, fmi: int, folder: Path) -> list[Path]:
     made = []
     for source in [folder / n for n in sources.c_files(files)] + [NATIVE / f"static{fmi}.c"]:
         made.append(folder / f"{source.stem}.o")
-        command = [tool("gcc", "gcc"), "-std=c11", *STRICT, "-Wno-unused-function", *SANITIZERS]
+        command = [tool("gcc", "gcc"), "-std=c11", *STRICT, "-Wno-unused-function", *flags]
         command += ["-D_GNU_SOURCE", define, f"-I{folder}", f"-I{NATIVE}", "-c", str(source)]
         run(*command, "-o", made[-1])
     return made
 
 
-@pytest.fixture(scope="module")
-def objects(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[int, int], list[Path]]:
-    folder = tmp_path_factory.mktemp("static")
-    return {build: compile_build(*build, folder / prefix(*build)) for build in BUILDS}
+def compile_all(folder: Path, *flags: str) -> dict[tuple[int, int], list[Path]]:
+    """Objects of every build."""
+    return {build: compile_build(*build, folder / prefix(*build), *flags) for build in BUILDS}
 
 
 def expected(legs: int) -> np.ndarray:
@@ -71,9 +70,7 @@ def expected(legs: int) -> np.ndarray:
 
 
 @pytest.mark.thorough
-def test_four_builds_in_one_program_give_what_each_gives_alone(
-    objects: dict[tuple[int, int], list[Path]], tmp_path: Path
-) -> None:
+def test_four_builds_in_one_program_give_what_each_gives_alone(tmp_path: Path) -> None:
     names = [f"{prefix(*build)}run" for build in BUILDS]
     main = tmp_path / "main.c"
     main.write_text(
@@ -82,7 +79,7 @@ def test_four_builds_in_one_program_give_what_each_gives_alone(
             calls=" || ".join(f"{name}({TICKS}, {HIP})" for name in names),
         )
     )
-    every = [path for made in objects.values() for path in made]
+    every = [path for made in compile_all(tmp_path, *SANITIZERS).values() for path in made]
     run(tool("gcc", "gcc"), *SANITIZERS, main, *every, "-o", tmp_path / "main", "-lm")
     lines = run(tmp_path / "main").splitlines()
     for legs, _ in BUILDS:
@@ -92,11 +89,9 @@ def test_four_builds_in_one_program_give_what_each_gives_alone(
     assert lines == []
 
 
-def test_no_name_is_shared_and_every_name_is_prefixed(
-    objects: dict[tuple[int, int], list[Path]],
-) -> None:
+def test_no_name_is_shared_and_every_name_is_prefixed(tmp_path: Path) -> None:
     seen: Counter[str] = Counter()
-    for build, made in objects.items():
+    for build, made in compile_all(tmp_path, "-O0").items():
         text = run(tool("nm", "binutils"), "-g", "--defined-only", *made)
         names = re.findall(r"^\w+ [A-Z] (\w+)$", text, re.MULTILINE)
         functions = [name for name in names if "fmi" in name]

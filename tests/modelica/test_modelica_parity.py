@@ -19,7 +19,7 @@ from apnc_core.schema import Causality, Shape
 from apnc_core.variables import variables_of
 
 TOLERANCE = 1e-9
-TICKS = 1000
+TICKS = 600
 OUTPUTS = variables_of(Causality.output) + variables_of(Causality.local)
 
 # sigma and hold are such that the couplings switch on early in the run

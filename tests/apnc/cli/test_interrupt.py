@@ -66,8 +66,11 @@ def place(study: tuple[str, ...], folder: Path) -> Path:
 
 @pytest.mark.parametrize(
     ("study", "at"),
-    [(IN_C, "of 4 trials"), (IN_PROCESSES, " loky"), (IN_PROCESSES, "of 4 trials")],
-    ids=["threads", "processes at their start", "processes"],
+    [
+        pytest.param(IN_C, "of 4 trials", id="threads"),
+        pytest.param(IN_PROCESSES, " loky", id="processes at their start"),
+        pytest.param(IN_PROCESSES, "of 4 trials", id="processes", marks=pytest.mark.thorough),
+    ],
 )
 def test_ctrl_c_in_a_study_also_reaches_workers_and_is_no_traceback(
     study: tuple[str, ...], at: str, tmp_path: Path
@@ -88,7 +91,13 @@ IN_C_MANY = (*IN_C[:-1], "5", "--mi", "0.08", "--workers", "1", "--trials", "400
 IN_PROCESSES_MANY = (*IN_PROCESSES, "--mi", "0.08", "--workers", "2", "--trials", "400")
 
 
-@pytest.mark.parametrize("study", [IN_C_MANY, IN_PROCESSES_MANY], ids=["threads", "processes"])
+@pytest.mark.parametrize(
+    "study",
+    [
+        pytest.param(IN_C_MANY, id="threads"),
+        pytest.param(IN_PROCESSES_MANY, id="processes", marks=pytest.mark.thorough),
+    ],
+)
 def test_a_terminated_study_has_written_what_had_ended(
     study: tuple[str, ...], tmp_path: Path
 ) -> None:

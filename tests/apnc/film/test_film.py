@@ -54,8 +54,13 @@ def test_pictures_move_and_the_mark_of_the_present_stays_in_the_middle() -> None
         assert mark.mean() == pytest.approx(34 + (390 - 34) / 2, abs=1.5)
 
 
+SMALL, *LARGE = SIZES
+
+
 @pytest.mark.parametrize("suffix", FORMATS)
-@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize(
+    "size", [SMALL, *(pytest.param(size, marks=pytest.mark.thorough) for size in LARGE)]
+)
 def test_a_film_has_its_size_its_rate_and_as_long_as_asked(
     suffix: str, size: str, tmp_path: Path
 ) -> None:

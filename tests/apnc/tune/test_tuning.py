@@ -48,6 +48,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> tuple[Tuned, bytes]:
         return searched(log), log.read_bytes()
 
 
+@pytest.mark.thorough
 def test_two_processes_find_the_same_as_one(alone: tuple[Tuned, bytes], tmp_path: Path) -> None:
     log = tmp_path / "tuned.csv"
     found = searched(log, workers=2)  # processes
@@ -80,7 +81,7 @@ def stopped_after(candidates: int) -> tuple[dict[str, Any], list[int]]:
     return {"progress": progress, "stop": lambda: seen[-1] >= candidates}, seen
 
 
-@pytest.mark.parametrize("candidates", [0, 4])
+@pytest.mark.parametrize("candidates", [pytest.param(0, marks=pytest.mark.thorough), 4])
 def test_an_interrupted_search_keeps_the_best_and_goes_on_to_the_same_end(
     candidates: int, alone: tuple[Tuned, bytes], tmp_path: Path
 ) -> None:
@@ -137,7 +138,7 @@ def test_torque_limits_and_what_is_not_allowed_stay(alone: tuple[Tuned, bytes]) 
 
 
 def test_the_command_says_what_was_kept() -> None:
-    found = searched(allowed=Allowed(kept=("a1", "b1", "b2")), near=True)
+    found = searched(candidates=0, allowed=Allowed(kept=("a1", "b1", "b2")), near=True)
     assert found.command.endswith("--near --keep a1,b1,b2")
 
 

@@ -156,7 +156,7 @@ def test_the_ground_follows_the_robot() -> None:
         view.watch(0.0, sample, controller)
         assert not any("ground" in str(note) for note in view._notes)
         far = sample | {"position": sample["position"] + [30.0, 0.0, 0.0]}
-        for n in range(120):
+        for n in range(10):
             view.watch(n / 60, far, controller)
         grounds = [json.loads(note) for note in view._notes if "ground" in str(note)[:12]]
         assert grounds

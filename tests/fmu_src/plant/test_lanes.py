@@ -59,7 +59,13 @@ def shipped(name: str, lane: int) -> Numbers:
     return robot_numbers(late, side_offset=0.001 * lane, payload=0.1 * lane)
 
 
-@pytest.mark.parametrize("name", ["lilibot", "hexapod", "octopod"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "lilibot",
+        *(pytest.param(name, marks=pytest.mark.thorough) for name in ("hexapod", "octopod")),
+    ],
+)
 @pytest.mark.parametrize(
     "ground",
     [plane(), plane(0.08), obstacles(2, 0.004), kerb(0.09, 0.004), waves()],

@@ -65,6 +65,7 @@ def by_compiler(name: str, ours: Path, folder: Path, ticks: str, *flags: str) ->
     assert run(program, ticks) == run(ours, ticks)
 
 
+@pytest.mark.thorough
 def test_gcc_without_vectors(ours: Path, folder: Path) -> None:
     by_compiler("gcc", ours, folder, SHORT, "-O1", "-DPLANT_PLAIN")
 

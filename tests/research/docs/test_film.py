@@ -29,6 +29,7 @@ def test_the_frame_follows_place_and_heading() -> None:
     assert (feet[..., 1] - lows) == pytest.approx(1000 * FOOT_RADIUS)
 
 
+@pytest.mark.thorough
 def test_the_film_shows_whole_strides_at_a_quarter_of_the_speed(tmp_path: Path) -> None:
     part = film.steady_part(WALK)
     assert part.time[0] == pytest.approx(12.0) and len(part.signals["grf"]) == len(part) == 480
