@@ -9,8 +9,8 @@ from typing import Any, Final
 import numpy as np
 
 from apnc.controllers import named_controller
-from apnc.report import theme
 from apnc.report.figure import Trace
+from apnc.studies.plots import LOOKS
 from apnc.studies.statistics import rate
 from apnc.studies.table import markdown
 
@@ -18,8 +18,8 @@ Row = dict[str, Any]
 
 CELL: Final = ("mi", "start", "controller")
 
-NO_GAIT: Final = ("other", "fell")
-"""Ends that are no gait."""
+BESIDE: Final = 0.32
+"""Between the lines of two controllers, over that between two starts [1]."""
 
 
 def counts(results: Sequence[Mapping[str, Any]]) -> list[Row]:
@@ -69,7 +69,7 @@ def counts_table(rows: Sequence[Row]) -> str:
 def _share(row: Row) -> str:
     walks, of = int(row["walks"]), int(row["of"])
     found = rate([True] * walks + [False] * (of - walks))
-    return f"{100 * found.low:.0f} ... {100 * found.high:.0f} %"
+    return f"{100 * found.low:.3g} ... {100 * found.high:.3g} %"
 
 
 def _time(row: Row) -> str:
@@ -80,33 +80,59 @@ def _time(row: Row) -> str:
     )
 
 
-COLOURS: Final = (theme.BLUE, theme.ORANGE, theme.GREEN, theme.PURPLE, theme.VERMILLION, theme.SKY)
-
-
-def stacked(rows: Sequence[Row]) -> list[Trace]:
-    """Bars of the shares of the ends [%], one per MI, start and controller."""
-    total: Counter[str] = Counter()
+def commonest(rows: Sequence[Row]) -> list[Row]:
+    """Of each MI, start and controller the row of the end that most walks have."""
+    first: dict[tuple[Any, ...], Row] = {}
     for row in rows:
-        total[row["end"]] += int(row["walks"])
-    ends = [end for end, _ in total.most_common() if end not in NO_GAIT]
-    looks = dict(zip(ends, COLOURS, strict=False)) | {"other": theme.GREY, "fell": theme.INK}
+        first.setdefault(tuple(row[name] for name in CELL), row)
+    return list(first.values())
+
+
+def places(rows: Sequence[Row]) -> dict[str, float]:
+    """Where the lines of a start lie, from above, by what it is called: start, end and share."""
+    lines: dict[str, list[Row]] = {}
+    for row in commonest(rows):
+        lines.setdefault(str(row["start"]), []).append(row)
+    called = {}
+    for at, (start, own) in enumerate(lines.items()):
+        shares = {f"{row['end']} {row['walks']}/{row['of']}" for row in own}
+        called[f"from {start}: {' or '.join(sorted(shares))}"] = -float(at)
+    return called
+
+
+def times(rows: Sequence[Row]) -> list[Trace]:
+    """Times to the commonest end over the start, a line per controller.
+
+    A marker is the median, and eight of ten walks lie within its bar [s].
+
+    Args:
+        rows: of :func:`counts`, of one MI.
+    """
+    found = commonest(rows)
+    starts = list(dict.fromkeys(row["start"] for row in found))
+    controllers = list(dict.fromkeys(row["controller"] for row in found))
     traces = []
-    for end, colour in looks.items():
-        own = [row for row in rows if row["end"] == end]
-        if not own:
-            continue
+    for beside, controller in enumerate(controllers):
+        own = [row for row in found if row["controller"] == controller]
+        own = [row for row in own if row["median_s"] not in ("", None)]
+        look = LOOKS[controller]
+        middle, low, high = (
+            [float(row[name]) for row in own] for name in ("median_s", "low_s", "high_s")
+        )
+        shift = BESIDE * (beside - (len(controllers) - 1) / 2)
         traces.append({
-            "type": "bar",
-            "orientation": "h",
-            "name": end,
-            "y": [label(row) for row in own],
-            "x": [100.0 * int(row["walks"]) / int(row["of"]) for row in own],
-            "marker": {"color": colour},
+            "type": "scatter",
+            "mode": "markers",
+            "name": named_controller(controller).name,
+            "x": middle,
+            "y": [-starts.index(row["start"]) - shift for row in own],
+            "error_x": {
+                "type": "data",
+                "symmetric": False,
+                "array": [b - a for a, b in zip(middle, high, strict=True)],
+                "arrayminus": [b - a for a, b in zip(low, middle, strict=True)],
+                "color": look.colour,
+            },
+            "marker": {"color": look.colour, "symbol": look.symbol, "size": 9},
         })  # fmt: skip
     return traces
-
-
-def label(row: Row) -> str:
-    """Name of a bar."""
-    name = named_controller(row["controller"]).name
-    return f"MI {float(row['mi']):.2f}, {name}, from {row['start']}"

@@ -20,6 +20,7 @@ import csv
 import gzip
 import hashlib
 import json
+import re
 import sys
 from collections.abc import Iterable, Sequence
 from functools import cache
@@ -121,13 +122,21 @@ def robots_in(trials: Path) -> set[str]:
         return {line.get("robot") or USUAL for line in csv.DictReader(file)}
 
 
+def measured_at(folder: Path) -> str:
+    """Commit that the report in the folder of a study names; the present one if none does."""
+    for path in sorted(folder.glob("*.md")):
+        if found := re.search(r"^- commit: (\S+)$", path.read_text("utf-8"), re.MULTILINE):
+            return found[1]
+    return commit()
+
+
 def keep(trials: Path, target: Path) -> None:
     """Copy the file ``trials.csv`` of a study into the documentation, and write its entry."""
     content = trials.read_bytes()
     if target.suffix == ".gz":
         content = gzip.compress(content, mtime=0)
     target.write_bytes(content)
-    note(robots_in(trials), target)
+    note(robots_in(trials), target, at=measured_at(trials.parent))
 
 
 def main(words: Sequence[str]) -> None:

@@ -12,7 +12,7 @@ import re
 import sys
 from pathlib import Path
 
-from research.docs.manifest import note, robots_in
+from research.docs.manifest import measured_at, note, robots_in
 
 TABLE = r"(?:\|.*\n)+"
 
@@ -40,7 +40,8 @@ def main(page: Path, table: Path) -> None:
     except ValueError as error:
         sys.exit(f"{page}: {error}")
     page.write_text(changed, encoding="utf-8")
-    note(robots_in(table.with_name("trials.csv")), table.stem)
+    folder = table.parent
+    note(robots_in(folder / "trials.csv"), table.stem, at=measured_at(folder))
 
 
 if __name__ == "__main__":

@@ -11,18 +11,16 @@ made from the files; pictures need Chromium.
 from __future__ import annotations
 
 import csv
-import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from apnc.studies.machine import commit
 from apnc.studies.table import markdown
 from research import limits, robustness
 from research.basin import ends, pushes
 from research.docs import DOCS
-from research.docs.manifest import entries, name_of, note, robots_in
+from research.docs.manifest import entries, measured_at, name_of, note, robots_in
 from research.docs.put_table import put
 from research.docs.reach_pictures import draw
 from research.robustness import numbers
@@ -122,14 +120,6 @@ def keep(folder: Path) -> None:
         seconds=" and ".join(f"{each:g}" for each in seconds),
         seeds=len({result["seed"] for result in results}),
     )
-
-
-def measured_at(folder: Path) -> str:
-    """Commit that the report in the folder of a study names; the present one if none does."""
-    for path in sorted(folder.glob("*.md")):
-        if found := re.search(r"^- commit: (\S+)$", path.read_text("utf-8"), re.MULTILINE):
-            return found[1]
-    return commit()
 
 
 def size_of(page: str) -> str:

@@ -78,16 +78,27 @@ def one_body(shares: Rows, off: Rows) -> Any:
 
 
 def ends_of(rows: Rows) -> Any:
-    """Where walks end, a bar per start."""
-    bars = ends.stacked(rows)
-    names = list(dict.fromkeys(ends.label(row) for row in rows))
-    plot = make_subplots(rows=1, cols=1)
-    plot.add_traces(bars)
-    plot.update_xaxes(**theme.axis("walks that end in it [%]", range=[0, 100]))
-    order = {"categoryorder": "array", "categoryarray": names[::-1]}
-    plot.update_yaxes(**theme.axis("", automargin=True, **order))
-    plot.update_layout(theme.layout(110 + BAR_PX * len(names), barmode="stack", hovermode=False))
-    plot.update_layout(margin={"l": 250}, legend={"traceorder": "normal"})
+    """When walks reach the gait that they end in, a panel per MI."""
+    mis = sorted({float(row["mi"]) for row in rows})
+    own = [[row for row in rows if float(row["mi"]) == mi] for mi in mis]
+    called = [ends.places(each) for each in own]
+    longest = max(float(row["high_s"] or 0.0) for row in ends.commonest(rows))
+    plot = make_subplots(
+        rows=1,
+        cols=len(mis),
+        horizontal_spacing=0.26,
+        subplot_titles=[f"MI {mi:.2f}" for mi in mis],
+    )
+    for column, (each, names) in enumerate(zip(own, called, strict=True), start=1):
+        for trace in ends.times(each):
+            group = {"legendgroup": trace["name"], "showlegend": column == 1}
+            plot.add_trace(trace | group, row=1, col=column)
+        seconds = theme.axis("reached after [s]", range=[-0.03 * longest, 1.05 * longest])
+        plot.update_xaxes(row=1, col=column, **seconds)
+        ticks = {"tickvals": list(names.values()), "ticktext": list(names)}
+        plot.update_yaxes(row=1, col=column, **theme.axis("", automargin=True, **ticks))
+    plot.update_layout(theme.layout(130 + 2 * BAR_PX * len(called[0]), hovermode=False))
+    plot.update_layout(margin={"l": 160, "t": 80}, legend={"y": 1.1})
     return plot
 
 

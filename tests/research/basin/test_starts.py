@@ -14,7 +14,7 @@ from apnc.loop.simulate import plant_of
 from apnc_core.controller import Controller
 from apnc_core.interface import Inputs, Parameters
 from research.basin import runner
-from research.basin.ends import counts, counts_table, stacked
+from research.basin.ends import counts, counts_table, places, times
 from research.basin.starts import (
     RANDOM,
     Walk,
@@ -132,11 +132,17 @@ def test_every_start_of_a_robot_is_another_walk() -> None:
     assert len(grid) == 2 * 2 * (3 + 2 * len(CANDIDATES[6]))
 
 
-def test_the_table_counts_ends_and_the_bars_add_up() -> None:
+def test_the_table_counts_ends_and_the_picture_shows_the_commonest() -> None:
     cell = {"mi": 0.15, "start": RANDOM, "controller": "apc"}
     ends = [("trot", 2.0), ("trot", 4.0), ("trot", ""), ("pace", 1.0)]
-    rows = counts([cell | {"gait": gait, "after_s": after} for gait, after in ends])
+    other = [cell | {"start": "pace", "gait": "other", "after_s": ""}]
+    rows = counts([*(cell | {"gait": gait, "after_s": after} for gait, after in ends), *other])
     assert counts_table(rows).splitlines()[2] == (
-        "| 0.15 | random (4) | APC alone | trot 3, pace 1 | 19 ... 99 % | 3.0 (2.2 ... 3.8) |"
+        "| 0.15 | random (4) | APC alone | trot 3, pace 1 | 19.4 ... 99.4 % | 3.0 (2.2 ... 3.8) |"
     )
-    assert sum(trace["x"][0] for trace in stacked(rows)) == 100.0
+    assert places(rows) == {"from random: trot 3/4": 0.0, "from pace: other 1/1": -1.0}
+    (trace,) = times(rows)  # no time without a gait
+    assert (trace["x"], trace["y"]) == ([3.0], [0.0])
+    assert trace["error_x"]["array"] == pytest.approx([0.8])
+    both = times([*rows, *(row | {"controller": "apnc"} for row in rows)])
+    assert both[0]["y"][0] > both[1]["y"][0]
