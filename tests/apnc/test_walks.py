@@ -115,10 +115,11 @@ def test_half_steering_turns_alike_to_both_sides() -> None:
 
 
 def test_speed_follows_mi_and_comes_back() -> None:
-    record, _ = walked(duration=60.0, mi=schedules.SPEEDS)
+    # the robot walks 0.063 and 0.119 m/s at these MI (docs/formation/search.md)
+    record, _ = walked(duration=60.0, mi=((0.0, 0.08), (25.0, 0.4), (40.0, 0.08)))
     found = steering.measure(record)
     slow, fast, again = (found[f"{schedules.SPEED}_{i}"] for i in (1, 2, 3))
-    assert fast > 1.4 * slow
+    assert fast > 1.5 * slow
     assert again == pytest.approx(slow, rel=0.05)
 
 

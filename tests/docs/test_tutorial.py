@@ -24,6 +24,7 @@ def test_the_notebook_runs_and_finds_what_it_tells(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert "trot after" in done.stdout
     learned, apnc, apc, fresh, given, built = map(float, re.findall(r"(\S+) m/s", done.stdout))
-    assert min(learned, apnc, given, built) > 0.08  # m/s; it walks at MI 0.2
+    # at MI 0.15 the robot walks 0.081 m/s (docs/formation/search.md); here it does at MI 0.2
+    assert min(learned, apnc, given, built) > 0.08
     assert max(apc, fresh) < 0.04
     assert built == given

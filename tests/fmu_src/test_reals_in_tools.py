@@ -19,7 +19,7 @@ from apnc_core.elementary import wrap
 from build_fmu.build import cached_fmu
 from build_fmu.options import BuildOptions, host_platform
 
-TICKS, TS, MI = 1200, 1 / 60, 0.15
+TICKS, TS, MI = 1200, 1 / 60, 0.2
 LOADS = [f"leg[{i}].grf" for i in range(1, 5)]
 COMMANDS = [f"leg[{i}].theta_{joint}" for i in range(1, 5) for joint in ("hip", "knee")]
 PHI = [f"phi[{k}]" for k in (1, 2, 3)]
@@ -42,7 +42,7 @@ def fmus() -> Fmus:
 
 def assert_trot(x: float, ticks: float, phi: list[float]) -> None:
     assert ticks in (TICKS, TICKS + 1)
-    assert x > 1.4
+    assert x > 1.5  # m; at MI 0.15 it would come 1.46 m far, at the default 1.2 m
     assert np.abs(wrap(np.array(phi) - TROT)).max() < 0.3
 
 
