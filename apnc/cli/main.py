@@ -8,7 +8,7 @@ import io
 import sys
 from collections.abc import Callable
 from itertools import pairwise
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from apnc.cli.interrupt import NOTHING, STOP, Interrupted
 
@@ -83,6 +83,17 @@ def _run(arguments: list[str], program: str, load: Callable[[], typer.Typer]) ->
     return code if isinstance(code, int) else 0
 
 
+_ASKED: Final = {"float_parsing": "a number", "int_parsing": "a whole number"}
+"""What an option takes, by the kind of error that pydantic finds in its value."""
+
+
+def _say_value(error: Any) -> None:
+    """Name the value, and what is allowed, in a usage error from a number that cannot be read."""
+    found: list[Any] = getattr(error.__cause__, "errors", list)()
+    if found and found[0]["type"] in _ASKED:
+        error.message = f"{found[0]['input']!r}; allowed: {_ASKED[found[0]['type']]}"
+
+
 def _explained(error: Exception, program: str) -> int:
     if hasattr(error, "exit_code") and type(error).__name__ == "Exit":
         return int(error.exit_code)
@@ -90,6 +101,7 @@ def _explained(error: Exception, program: str) -> int:
         if type(error).__name__ == "NoArgsIsHelpError":
             error.show()  # type: ignore[attr-defined]  # known by its name, to import nothing
             return BAD_USE
+        _say_value(error)
         text = error.format_message()
     elif isinstance(error, ValueError | OSError | RuntimeError):
         text = str(error)

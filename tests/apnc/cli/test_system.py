@@ -32,6 +32,14 @@ def values(file: Path) -> dict[str, str]:
         (["build-system", "--set", "servo.damping=x"], "servo.damping = 'x'; allowed: a number"),
         (["build-system", "--set", "servo.cow=1"], "parameter 'servo.cow' is not one of"),
         (["build-system", "--roughness", "2"], "roughness is 2.0; allowed: 0 ... 1"),
+        (
+            ["build-system", "--mi", "0:0.1,5:0.3"],
+            "Invalid value for '--mi': '0:0.1,5:0.3'; allowed: a number",
+        ),
+        (
+            ["build-system", "--seed", "1.5"],
+            "Invalid value for '--seed': '1.5'; allowed: a whole number",
+        ),
         (["build-plant", "--robot", "cow"], "robot 'cow'"),
         (["build-plant", "--naming", "cow"], "naming 'cow' is not one of"),
         (["build-plant", "--fmi", "1"], "fmi = 1 is not one of 2, 3"),
