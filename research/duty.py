@@ -19,15 +19,7 @@ from apnc.loop.record import Record
 from apnc.studies import gait
 from apnc.studies.gains import LATE_SPEED
 from apnc.studies.mi import DUTY
-from apnc.studies.results import (
-    Result,
-    cells_in,
-    controllers_in,
-    is_number,
-    matching,
-    successes,
-    values,
-)
+from apnc.studies.results import Result, cells_in, controllers_in, matching, successes, values
 from apnc.studies.robots import changed, constant
 from apnc.studies.states.measure import WALKS
 from apnc.studies.study import Study
@@ -103,7 +95,7 @@ def trots(results: Sequence[Result]) -> list[Result]:
     return [
         result
         for result, formed in zip(results, successes(results), strict=True)
-        if formed and is_number(result.get(LATE_SPEED)) and result[LATE_SPEED] >= WALKS
+        if formed and (result.get(LATE_SPEED) or 0.0) >= WALKS  # NaN is not
     ]
 
 

@@ -10,7 +10,7 @@ from full_robot import full_robot
 from grounds import WALKED
 from made_up_robots import every_chain
 from odd_robot import odd_robot
-from plants import AnyPlant
+from plants import trot
 
 from apnc_plant.compiled import KINDS, CompiledPlant
 from apnc_plant.conditions import Conditions, named_conditions
@@ -23,15 +23,6 @@ TICK = 1 / 60
 ROBOT = load_robot("lilibot")
 LATE = replace(ROBOT, servo=replace(ROBOT.servo, latency=0.023, slew_rate=2.0))
 DULL = replace(ROBOT, sensor=replace(ROBOT.sensor, delay=0.04, component="norm"))
-
-
-def trot(plant: AnyPlant, tick: int, duration: float = TICK) -> None:
-    phase = 0.12 * tick
-    diagonal = np.array([1.0 if k % 2 == 0 else -1.0 for k in range(plant.n_legs)])
-    diagonal[plant.n_legs // 2 :] *= -1.0
-    hip = 0.13 * np.sin(phase) * diagonal - 0.111
-    knee = 0.08 * np.cos(phase) * diagonal - 0.039
-    plant.advance(hip, knee, duration)
 
 
 PLACES = ("position", "rpy", "joint_angle", "foot_position", "joint_work")

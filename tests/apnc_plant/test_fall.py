@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from plain_robot import plain_robot
-from plants import Kind, in_both
+from plants import Kind, in_both, trot
 from scipy.spatial.transform import Rotation
 
 from apnc_plant.compiled import PlantInC
@@ -134,12 +134,8 @@ def test_a_robot_of_half_the_size_stands(kind: Kind) -> None:
 @in_both
 def test_a_walk_down_a_slope_is_no_fall(kind: Kind) -> None:
     plant = kind(ROBOT, ground=Plane(slope=math.radians(-8.0)))
-    diagonal = np.array([1.0, -1.0, -1.0, 1.0])
     for tick in range(300):
-        phase = 0.12 * tick
-        hip = 0.13 * np.sin(phase) * diagonal - 0.111
-        knee = 0.08 * np.cos(phase) * diagonal - 0.039
-        plant.advance(hip, knee, TICK)
+        trot(plant, tick)
         assert not plant.fell
     x, _, z = plant.sample()["position"]
     assert x > 0.3

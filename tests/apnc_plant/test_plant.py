@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plain_robot import plain_text
-from plants import AnyPlant, Kind, in_both
+from plants import AnyPlant, Kind, commands, in_both, stand
 from unchecked import any_step
 
 from apnc_core.interface import Parameters
@@ -21,13 +21,6 @@ TICK = 1 / 60
 DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
 ROBOT = load_robot("lilibot")
 DEFAULT = Parameters()
-
-
-def stand(kind: Kind, robot: RobotDescription, seconds: float = 2.0) -> AnyPlant:
-    plant = kind(robot)
-    for _ in range(round(seconds / TICK)):
-        plant.advance(np.zeros(plant.n_legs), np.zeros(plant.n_legs), TICK)
-    return plant
 
 
 def trot(plant: AnyPlant, tick: int, duration: float = TICK) -> None:
@@ -207,40 +200,33 @@ def test_divergence_is_reported(kind: Kind, monkeypatch: pytest.MonkeyPatch) -> 
             trot(plant, tick)
 
 
+def stands_on_all_feet(kind: Kind, robot: RobotDescription, *legs: str) -> None:
+    plant = stand(kind, replace(robot, trunk=replace(robot.trunk, com_side_offset=0.0)))
+    assert plant.legs == legs
+    force = plant.sample()["foot_force"]
+    assert force[:, 2].sum() == pytest.approx(plant.mass * 9.81, rel=1e-3)
+    assert force[:, 2].min() > 1.0
+    np.testing.assert_allclose(plant.sample()["rpy"], 0.0, atol=0.05)
+    assert not plant.fell
+
+
 @in_both
 def test_a_hexapod_with_hips_of_one_height_stands_on_all_six_feet(kind: Kind) -> None:
     hexapod = load_robot("hexapod")
     level = tuple(replace(leg, mount=(*leg.mount[:2], 0.0)) for leg in hexapod.legs)
-    centred = replace(hexapod.trunk, com_side_offset=0.0)
-    plant = stand(kind, replace(hexapod, legs=level, trunk=centred))
-    assert plant.legs == ("RF", "RM", "RH", "LF", "LM", "LH")
-    force = plant.sample()["foot_force"]
-    assert force[:, 2].sum() == pytest.approx(plant.mass * 9.81, rel=1e-3)
-    assert force[:, 2].min() > 1.0
-    np.testing.assert_allclose(plant.sample()["rpy"], 0.0, atol=0.05)
-    assert not plant.fell
+    stands_on_all_feet(kind, replace(hexapod, legs=level), "RF", "RM", "RH", "LF", "LM", "LH")
 
 
 @in_both
 def test_the_octopod_stands_on_all_eight_feet(kind: Kind) -> None:
-    octopod = load_robot("octopod")
-    plant = stand(kind, replace(octopod, trunk=replace(octopod.trunk, com_side_offset=0.0)))
-    assert plant.legs == ("RF", "R2", "R3", "RH", "LF", "L2", "L3", "LH")
-    force = plant.sample()["foot_force"]
-    assert force[:, 2].sum() == pytest.approx(plant.mass * 9.81, rel=1e-3)
-    assert force[:, 2].min() > 1.0
-    np.testing.assert_allclose(plant.sample()["rpy"], 0.0, atol=0.05)
-    assert not plant.fell
+    names = ("RF", "R2", "R3", "RH", "LF", "L2", "L3", "LH")
+    stands_on_all_feet(kind, load_robot("octopod"), *names)
 
 
 @in_both
 def test_the_hexapod_walks_on_alternating_tripods(kind: Kind) -> None:
     plant = kind(load_robot("hexapod"))
-    tripods = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
     for tick in range(360):
-        phase = 0.12 * tick
-        hip = 0.13 * np.sin(phase) * tripods - 0.111
-        knee = 0.08 * np.cos(phase) * tripods - 0.039
-        plant.advance(hip, knee, TICK)
+        plant.advance(*commands(tick, 6), TICK)
     assert 0.2 < plant.sample()["position"][0] < 0.7
     assert not plant.fell

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from exudyn_feet import MarkedPlant
 from plain_robot import plain_robot
+from plants import trot as step_of_trot
 
 from apnc_plant.options import PlantOptions
 from apnc_plant.step import own_step
@@ -24,19 +25,12 @@ from exudyn_models.plant import ExudynPlant, _solver_settings
 TICK = 1 / 60
 ROBOT = plain_robot()
 STEP = own_step(ROBOT)
-DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
 
 
 def trot(plant: ExudynPlant, tick: int, parts: int = 1) -> None:
     """A tick of a trot on fixed phases, in so many equal parts."""
     for _ in range(parts):
         step_of_trot(plant, tick, TICK / parts)
-
-
-def step_of_trot(plant: ExudynPlant, tick: int, duration: float) -> None:
-    hip = 0.13 * np.sin(0.12 * tick) * DIAGONAL - 0.111
-    knee = 0.08 * np.cos(0.12 * tick) * DIAGONAL - 0.039
-    plant.advance(hip, knee, duration)
 
 
 def motion(

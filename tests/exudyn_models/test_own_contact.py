@@ -8,6 +8,7 @@ import numpy as np
 import own_contact_exudyn
 import pytest
 from plain_robot import plain_robot
+from plants import commands
 
 from apnc_plant.legged import LeggedPlant
 from apnc_plant.options import PlantOptions
@@ -37,12 +38,10 @@ def test_a_robot_at_rest_carries_its_weight_under_both() -> None:
 
 def forces_in_a_trot(plant: LeggedPlant, steps: int) -> np.ndarray:
     """Mean force on every foot in every tick of a trot on fixed phases [N], (ticks, n_legs, 3)."""
-    diagonal, forces = np.array([1.0, -1.0, -1.0, 1.0]), []
+    forces = []
     for tick in range(60):
-        hip = 0.13 * np.sin(0.12 * tick) * diagonal - 0.111
-        knee = 0.08 * np.cos(0.12 * tick) * diagonal - 0.039
         for _ in range(steps):
-            plant.advance(hip, knee, TICK / steps)
+            plant.advance(*commands(tick), TICK / steps)
             forces.append(plant.sample()["foot_force"])
     return np.reshape(forces, (60, steps, 4, 3)).mean(axis=1)
 

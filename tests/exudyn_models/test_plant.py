@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from exudyn_feet import MarkedPlant
 from plain_robot import plain_robot
+from plants import trot
 
 from apnc_plant.options import PlantOptions
 from apnc_plant.robot import RobotDescription, load_robot
@@ -12,22 +13,7 @@ from exudyn_models.engine import exu
 from exudyn_models.plant import ExudynPlant
 
 TICK = 1 / 60
-DIAGONAL = np.array([1.0, -1.0, -1.0, 1.0])
 ROBOT = load_robot("lilibot")
-
-
-def stand(robot: RobotDescription, seconds: float = 2.0) -> ExudynPlant:
-    plant = ExudynPlant(robot)
-    for _ in range(round(seconds / TICK)):
-        plant.advance(np.zeros(plant.n_legs), np.zeros(plant.n_legs), TICK)
-    return plant
-
-
-def trot(plant: ExudynPlant, tick: int, duration: float = TICK) -> None:
-    phase = 0.12 * tick
-    hip = 0.13 * np.sin(phase) * DIAGONAL - 0.111
-    knee = 0.08 * np.cos(phase) * DIAGONAL - 0.039
-    plant.advance(hip, knee, duration)
 
 
 def test_recorded_feet_are_where_the_engine_has_them() -> None:

@@ -12,9 +12,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-import fmpy
 import numpy as np
-from fmpy import fmi2
+from named_fmu import FMU2Named
 from numpy.typing import NDArray
 
 from apnc.system.structure import Structure
@@ -22,22 +21,8 @@ from apnc.system.structure import Structure
 TICK = 1.0 / 60.0
 
 
-class FMU2Part(fmi2.FMU2Slave):
-    """One FMU, by names; fmpy wants the name of the class to begin with FMU2."""
-
-    def __init__(self, path: Path) -> None:
-        description = fmpy.read_model_description(str(path))
-        self.reference = {v.name: v.valueReference for v in description.modelVariables}
-        self.folder = fmpy.extract(str(path))
-        super().__init__(
-            guid=description.guid,
-            unzipDirectory=self.folder,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="part",
-        )
-
-    def get(self, names: Sequence[str]) -> list[float]:
-        return list(self.getReal([self.reference[name] for name in names]))
+class FMU2Part(FMU2Named):
+    """One FMU of a system."""
 
     def put(self, names: Sequence[str], values: Sequence[float]) -> None:
         self.setReal([self.reference[name] for name in names], list(values))

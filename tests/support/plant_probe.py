@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-import fmpy
 from fmpy import fmi2
+from named_fmu import FMU2Named
 
 TS = 1 / 60
 LEGS = range(1, 5)
@@ -17,19 +17,11 @@ COMMANDS = [f"leg[{i}].{x}" for x in ("theta_hip", "theta_knee") for i in LEGS]
 POSITION = [f"position.{x}" for x in "xyz"]
 
 
-class FMU2Plant(fmi2.FMU2Slave):
-    """fmpy wants the name of the class to begin with FMU2."""
+class FMU2Plant(FMU2Named):
+    """A plant that keeps its time and what it logs."""
 
     def __init__(self, path: Path) -> None:
-        description = fmpy.read_model_description(str(path))
-        self.reference = {v.name: v.valueReference for v in description.modelVariables}
-        self.folder = fmpy.extract(str(path))
-        super().__init__(
-            guid=description.guid,
-            unzipDirectory=self.folder,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="plant",
-        )
+        super().__init__(path)
         self.messages: list[str] = []
         self.own = fmi2.fmi2CallbackFunctions()
         self.own.logger = fmi2.fmi2CallbackLoggerTYPE(
@@ -48,9 +40,6 @@ class FMU2Plant(fmi2.FMU2Slave):
     def put(self, name: str, value: float | str) -> None:
         put = {int: self.setInteger, float: self.setReal, str: self.setString}[type(value)]
         put([self.reference[name]], [value])
-
-    def get(self, names: Sequence[str]) -> list[float]:
-        return list(self.getReal([self.reference[name] for name in names]))
 
     def command(self, angles: Sequence[float]) -> None:
         self.setReal([self.reference[name] for name in COMMANDS], list(angles))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from plain_robot import plain_robot
-from plants import Kind, in_both, settled
+from plants import Kind, commands, in_both, settled
 
 from apnc_plant.ground import Kerb
 
@@ -99,12 +99,8 @@ def test_front_feet_stand_on_a_kerb_and_hind_feet_below_it(kind: Kind) -> None:
 @in_both
 def test_a_walk_goes_over_a_kerb(kind: Kind) -> None:
     plant = kind(ROBOT, ground=Kerb(at=0.14, height=0.004))
-    diagonal = np.array([1.0, -1.0, -1.0, 1.0])
     for tick in range(480):
-        phase = 0.12 * tick
-        hip = 0.13 * np.sin(phase) * diagonal - 0.111
-        knee = 0.12 * np.cos(phase) * diagonal - 0.039
-        plant.advance(hip, knee, 1 / 60)
+        plant.advance(*commands(tick, knee=0.12), 1 / 60)
     for _ in range(60):
         plant.advance(np.full(4, -0.111), np.full(4, -0.039), 1 / 60)
     foot = plant.sample()["foot_position"]

@@ -10,6 +10,7 @@ from full_robot import full_robot
 from grounds import WALKED
 from made_up_robots import chained
 from plain_robot import plain_robot
+from plants import trot
 
 import apnc
 from apnc_plant.compiled import CompiledPlant as PlantInC
@@ -36,13 +37,6 @@ its damping sets in over ``damping_depth``, so that force changes by 1e5 N per m
 
 NOT_LEVEL = {"foot_force": 1e-8, "grf": 1e-8}
 """With other legs or on other grounds than the level plane, feet touch down at more speeds [N]."""
-
-
-def trot(legs: int, tick: int) -> tuple[np.ndarray, np.ndarray]:
-    """Hip and knee commands of a trot on fixed phases that walks forward [rad]."""
-    side = (-1.0) ** np.arange(legs // 2)
-    side = np.concatenate([side, -side])
-    return -0.111 + 0.13 * np.sin(0.12 * tick) * side, -0.039 + 0.08 * np.cos(0.12 * tick) * side
 
 
 class Walk:
@@ -72,7 +66,7 @@ class Walk:
         self.loaded = 0.0
         for tick in range(round(10.0 / TICK)):
             for plant in both:
-                plant.advance(*trot(len(robot.legs), tick), TICK)
+                trot(plant, tick)
             reference, sample = (plant.sample() for plant in both)
             assert set(sample) == set(BOUNDS)
             for name in BOUNDS:
