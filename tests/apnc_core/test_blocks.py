@@ -37,9 +37,9 @@ def run(controller: Controller, ticks: int, MI: float = 0.08) -> np.ndarray:
 
 @cache
 def free_run() -> tuple[np.ndarray, np.ndarray]:
-    """Outputs of the oscillator without load at MI = 0.08, shape (4500,)."""
+    """Outputs of the oscillator without load at MI = 0.08, shape (2500,)."""
     c = Controller()
-    ticks = [c.tick(Inputs(NO_LOAD, MI=0.08)) for _ in range(4500)]
+    ticks = [c.tick(Inputs(NO_LOAD, MI=0.08)) for _ in range(2500)]
     return np.array([o.o1[0] for o in ticks]), np.array([o.o2[0] for o in ticks])
 
 
@@ -192,7 +192,7 @@ def test_kernels_start_at_the_expectation_of_the_hip() -> None:
 
 
 def test_kernels_learn_the_load_of_a_walk() -> None:
-    o1, o2 = unloaded_cycle(4000)
+    o1, o2 = unloaded_cycle(2000)
     load_of = 0.5 * (o2 < 0.2) * (1.0 - 0.4 * o1)
     learned, errors = np.zeros((1, forward_model.KERNELS)), []
     p = Parameters(rbf_rate=0.05, **RADIAL)

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -25,7 +26,15 @@ def blocks(language: str) -> list[tuple[str, str]]:
     ]
 
 
-@pytest.mark.parametrize(("place", "code"), blocks("python"), ids=lambda x: x.split("\n")[0][:40])
+def python_blocks() -> list[Any]:
+    """Blocks of Python; one that searches takes longer than all others."""
+    return [
+        pytest.param(*block, marks=[pytest.mark.thorough] if "tune(" in block[1] else [])
+        for block in blocks("python")
+    ]
+
+
+@pytest.mark.parametrize(("place", "code"), python_blocks(), ids=lambda x: x.split("\n")[0][:40])
 def test_python_block_runs(
     place: str, code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

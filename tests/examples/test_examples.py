@@ -172,7 +172,8 @@ def test_the_own_robot_walks_from_the_command_line_too(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("robot", [pytest.param("go1", marks=pytest.mark.thorough), "go2"])
+@pytest.mark.thorough
+@pytest.mark.parametrize("robot", ["go1", "go2"])
 def test_a_robot_of_other_people_trots_in_its_own_file(
     robot: str, run: Run, tmp_path: Path, fmu4: Path
 ) -> None:

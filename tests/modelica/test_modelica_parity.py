@@ -19,7 +19,7 @@ from apnc_core.schema import Causality, Shape
 from apnc_core.variables import variables_of
 
 TOLERANCE = 1e-9
-TICKS = 600
+TICKS = 400
 OUTPUTS = variables_of(Causality.output) + variables_of(Causality.local)
 
 # sigma and hold are such that the couplings switch on early in the run
@@ -111,7 +111,14 @@ def differences(a: dict[str, np.ndarray], b: dict[str, np.ndarray]) -> dict[str,
     return {k: float(np.nan_to_num(np.abs(a[k] - b[k]), nan=np.inf).max()) for k in a}
 
 
-@pytest.mark.parametrize("case", CASES)
+ALWAYS = {"apnc", "tegotae", "phase_reset", "peak measure", "radial basis", "stored"}
+"""Cases of the default run, in which every block is at work."""
+
+
+@pytest.mark.parametrize(
+    "case",
+    [pytest.param(c, marks=[] if c in ALWAYS else [pytest.mark.thorough]) for c in CASES],
+)
 def test_native_controller_equals_the_fmu(case: str, fmu4: Path) -> None:
     done = native(CASES[case], TICKS)
     got = outputs(done)

@@ -22,7 +22,13 @@ from terminal import APNC, interrupted
 CODES = {signal.SIGINT: 130, signal.SIGTERM: 143}
 
 
-@pytest.mark.parametrize("by", CODES, ids=lambda by: by.name)
+@pytest.mark.parametrize(
+    "by",
+    [
+        pytest.param(by, id=by.name, marks=pytest.mark.thorough if by is signal.SIGTERM else [])
+        for by in CODES
+    ],
+)
 def test_a_signal_in_an_endless_walk_keeps_what_was_recorded(
     by: signal.Signals, tmp_path: Path
 ) -> None:
