@@ -27,6 +27,7 @@ class Known:
         reason: why it lies there.
         unit: of a shift; empty for a factor.
         far: largest shift that is tried, to both sides.
+        times: largest factor that is tried, to both sides [1].
         only_above: whether it cannot be shifted below its value.
     """
 
@@ -36,6 +37,7 @@ class Known:
     reason: str
     unit: str = ""
     far: float = 0.0
+    times: float = 8.0
     only_above: bool = False
 
     @property
@@ -101,7 +103,8 @@ _MS, _DEGREE = 1e-3, math.pi / 180.0
 
 KNOWN: Final = {
     "mass of the trunk": Known(
-        _times("trunk.mass"), 0.8, 1.2, "total mass published; follows from the links' masses"
+        _times("trunk.mass"), 0.8, 1.2, "total mass published; follows from the links' masses",
+        times=3.0,
     ),
     "mass of the hip links": Known(
         _times("legs.hip.mass"), 0.9, 1.1, "servo on its data sheet, bracket estimated"
@@ -123,16 +126,16 @@ KNOWN: Final = {
         _times("trunk.com_side_offset"), 1 / 3, 3.0, "order of magnitude"
     ),
     "hip spacing along": Known(
-        _along("legs.mount", 0), 0.95, 1.05, "read off the drawing, 5 mm"
+        _along("legs.mount", 0), 0.95, 1.05, "read off the drawing, 5 mm", times=2.0,
     ),
     "hip spacing across": Known(
-        _along("legs.mount", 1), 0.92, 1.08, "read off the drawing, 5 mm"
+        _along("legs.mount", 1), 0.92, 1.08, "read off the drawing, 5 mm", times=2.0,
     ),
     "length of the femurs": Known(
-        _times("legs.femur_length"), 0.99, 1.01, "drawing, pivot to pivot"
+        _times("legs.femur_length"), 0.99, 1.01, "drawing, pivot to pivot", times=1.5,
     ),
     "length of the tibiae": Known(
-        _times("legs.tibia_length"), 0.99, 1.01, "drawing, knee to middle of the foot"
+        _times("legs.tibia_length"), 0.99, 1.01, "drawing, knee to middle of the foot", times=1.5,
     ),
     "radius of the feet": Known(
         _times("contact.foot_radius"), 0.92, 1.08, "published as about 24 mm"

@@ -24,9 +24,6 @@ from research.robustness.walks import SECONDS, WALKS
 LEVELS: Final = 10
 """Steps outward from the robot's own value, to either side."""
 
-FARTHEST: Final = 8.0
-"""Factor at the last level [1]."""
-
 WALKED: Final = ("MI 0.08", "MI 0.15", "MI 0.28")
 """Walks that a number is tried in. Judged are those in which the robot as it is forms the gait."""
 
@@ -44,7 +41,7 @@ def off(known: Known, level: int) -> float:
     """
     if known.unit:
         return known.far * (max(0, level) if known.only_above else level) / LEVELS
-    return float(FARTHEST ** (level / LEVELS))
+    return float(known.times ** (level / LEVELS))
 
 
 @cache  # a body walks many times
@@ -143,7 +140,7 @@ def _ends(known: Known, rows: Sequence[Row], number: str, label: str) -> str:
     found = limits(rows, number, label)
     if found is None:
         return "-"
-    texts = [f"{off(known, level):.2g}" for level in found]
+    texts = [f"{off(known, level):.3g}" for level in found]
     words = [f"{word} {text}" for word, text in zip(("below", "above"), texts, strict=True)]
     at_end = (found[0] == -LEVELS and not known.only_above, found[1] == LEVELS)
     ends = (word if end else text for word, text, end in zip(words, texts, at_end, strict=True))
@@ -163,7 +160,7 @@ def counts_table(rows: Sequence[Row]) -> str:
         line = {
             "number": number,
             "off by": f"shift [{known.unit}]" if known.unit else "factor",
-            "real one lies in": f"{known.low:.2g} ... {known.high:.2g}",
+            "real one lies in": f"{known.low:.3g} ... {known.high:.3g}",
             "because": known.reason,
         }
         line |= {title: _ends(known, rows, number, label) for label, title in titles.items()}

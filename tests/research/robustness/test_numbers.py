@@ -79,8 +79,8 @@ def test_limits_end_at_the_first_level_that_loses_the_gait(rows: list[dict[str, 
     assert numbers.limits(rows, "friction", "apc") == (0, 1)
     line = numbers.counts_table(rows).splitlines()[2]
     assert line == (
-        "| friction | factor | 0.75 ... 1.2 | rubber on a dry floor, 0.6 to 1.0 "
-        "| 0.66 ... 1.5 | 1 ... 1.2 |"
+        "| friction | factor | 0.75 ... 1.25 | rubber on a dry floor, 0.6 to 1.0 "
+        "| 0.66 ... 1.52 | 1 ... 1.23 |"
     )
 
 
