@@ -38,6 +38,9 @@ from apnc.studies.table import markdown
 FIGURES: Final = {"mi": "Fig. 4", "rate": "Fig. 5", "terrain": "Fig. 6"}
 """Figure of the paper by study; each study has one axis."""
 
+HEADS: Final = {"mi": "MI", "rate": "rate [Hz]", "roughness": "R"}
+"""Head of the first column of a table by axis."""
+
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
 
 
@@ -54,7 +57,7 @@ def table(name: str, results: Sequence[Result]) -> str:
     """
     axis = axis_of(name)
     return markdown(
-        {"figure": FIGURES[name], axis: f"{cell:g}"}
+        {HEADS[axis]: f"{cell:g}"}
         | {named_controller(c).name: _told(results, c, axis, cell) for c in controllers_in(results)}
         for cell in cells_in(results, axis)
     )

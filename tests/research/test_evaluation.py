@@ -38,6 +38,6 @@ def test_the_table_says_how_sure_shares_and_times_are() -> None:
 
     results = made_up({"roughness": (0.0, 0.5)}, figures, ("apnc", "tegotae"), 4, "terrain")
     lines = evaluation.table("terrain", results).splitlines()
-    assert lines[0] == "| figure | roughness | APNC | Tegotae |"
+    assert lines[0] == "| R | APNC | Tegotae |"
     cell = "3/4 (19 ... 99 %), 2.0 (2.0 ... 2.0) s"
-    assert lines[3] == f"| Fig. 6 | 0.5 | {cell} | {cell} |"
+    assert lines[3] == f"| 0.5 | {cell} | {cell} |"
