@@ -29,7 +29,7 @@ from research.registry import STUDIES
 DIRECTIONS: Final = tuple(range(0, 360, 45))
 """Directions of the push [deg]: 0 ahead, 90 to the left, where the robot looked at the start."""
 
-FROUDE: Final = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.7, 0.8, 1.0)
+FROUDE: Final = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.6, 2.0)
 """Change of the robot's speed over sqrt(g l), with l the length of a leg [1]."""
 
 WALKED_S: Final = 15.0
