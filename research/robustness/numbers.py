@@ -169,7 +169,7 @@ def counts_table(rows: Sequence[Row]) -> str:
 
 
 def bars(rows: Sequence[Row], *, shifts: bool) -> list[Trace]:
-    """A bar per number and controller from limit to limit, and a line where the real one lies.
+    """A bar per number and controller from limit to limit, and lines: tried, and the real one.
 
     Args:
         rows: of :func:`counts`.
@@ -198,19 +198,28 @@ def bars(rows: Sequence[Row], *, shifts: bool) -> list[Trace]:
             "marker": {"color": LOOKS[controller].colour},
         })  # fmt: skip
     for place, (number, name) in enumerate(zip(numbers, names, strict=True)):
-        least = off(KNOWN[number], -LEVELS)
-        reach = [max(KNOWN[number].low, least), KNOWN[number].high]
-        traces.append({
-            "type": "scatter",
-            "mode": "lines+markers",
-            "name": "where the real number lies",
-            "legendgroup": "real",
-            "showlegend": place == 0 and not shifts,
-            "x": reach,
-            "y": [name, name],
-            "line": {"color": theme.INK, "width": 2},
-            "marker": {"symbol": "line-ns", "size": 9, "line": {"width": 2, "color": theme.INK}},
-        })  # fmt: skip
+        known = KNOWN[number]
+        tried = [off(known, level) for level in (-LEVELS, LEVELS)]
+        real = [max(known.low, tried[0]), min(known.high, tried[1])]
+        for ends, said, colour, size in (
+            (tried, "tried", theme.GREY, 5),
+            (real, "where the real number lies", theme.INK, 9),
+        ):
+            traces.append({
+                "type": "scatter",
+                "mode": "lines+markers",
+                "name": said,
+                "legendgroup": said,
+                "showlegend": place == 0 and not shifts,
+                "x": ends,
+                "y": [name, name],
+                "line": {"color": colour, "width": size / 4.5},
+                "marker": {
+                    "symbol": "line-ns",
+                    "size": size,
+                    "line": {"width": size / 4.5, "color": colour},
+                },
+            })  # fmt: skip
     return traces
 
 
@@ -225,7 +234,7 @@ FACTORS: Final = theme.axis(
     range=[-0.95, 0.95],
     tickvals=[0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0],
 )
-SHIFTS: Final = theme.axis("shift, in the unit beside the number", range=[-54.0, 54.0])
+SHIFTS: Final = theme.axis("shift, in the unit beside the number", range=[-54.0, 104.0])
 
 
 def figures(results: Sequence[Result]) -> list[Figure]:
