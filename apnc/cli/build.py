@@ -22,6 +22,27 @@ if TYPE_CHECKING:
 _CONTROLLERS: Final = ", ".join(CONTROLLERS)
 
 
+Naming = Annotated[
+    str,
+    Option(
+        help="Names of variables: structured (leg[1].grf) or flat (leg1_grf).",
+        autocompletion=complete.one_of("structured", "flat"),
+    ),
+]
+Fmi = Annotated[
+    int,
+    Option(help="Version of the FMI standard, 2 or 3.", autocompletion=complete.one_of("2", "3")),
+]
+Enumerations = Annotated[
+    str,
+    Option(
+        help="How enumerations are declared: enumeration or integer.",
+        autocompletion=complete.one_of("enumeration", "integer"),
+    ),
+]
+Reals = Annotated[bool, Option("--reals", help="Declare every variable as a Real.")]
+
+
 def build(
     output: Annotated[Path, file_option("File to write.")] = Path("Apnc.fmu"),
     legs: Annotated[
@@ -34,19 +55,8 @@ def build(
             autocompletion=complete.robots,
         ),
     ] = None,
-    naming: Annotated[
-        str,
-        Option(
-            help="Names of variables: structured (leg[1].grf) or flat (leg1_grf).",
-            autocompletion=complete.one_of("structured", "flat"),
-        ),
-    ] = "structured",
-    fmi: Annotated[
-        int,
-        Option(
-            help="Version of the FMI standard, 2 or 3.", autocompletion=complete.one_of("2", "3")
-        ),
-    ] = 2,
+    naming: Naming = "structured",
+    fmi: Fmi = 2,
     platform: Annotated[
         list[str] | None,
         Option(
@@ -83,14 +93,8 @@ def build(
             autocompletion=complete.controllers,
         ),
     ] = None,
-    enumerations: Annotated[
-        str,
-        Option(
-            help="How enumerations are declared: enumeration or integer.",
-            autocompletion=complete.one_of("enumeration", "integer"),
-        ),
-    ] = "enumeration",
-    reals: Annotated[bool, Option("--reals", help="Declare every variable as a Real.")] = False,
+    enumerations: Enumerations = "enumeration",
+    reals: Reals = False,
     release: Annotated[
         Path | None, Option(help="Folder to write all files of a release to, in place of one FMU.")
     ] = None,

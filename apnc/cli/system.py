@@ -10,11 +10,11 @@ from typing import Annotated
 from typer import Context, Option
 
 from apnc.cli import completion as complete
+from apnc.cli.build import Enumerations, Fmi, Naming, Reals, platform_names
 from apnc.cli.console import apart, compiling, file_option, given, say, status, writable
 from apnc.controllers import CONTROLLERS
 
 _CONTROLLERS = ", ".join(CONTROLLERS)
-_NAMING = "Names of variables: structured (leg[1].grf) or flat (leg1_grf)."
 
 
 def build_plant(
@@ -24,15 +24,8 @@ def build_plant(
     output: Annotated[
         Path | None, file_option("File to write. Default: the robot's name, LilibotPlant.fmu.")
     ] = None,
-    naming: Annotated[
-        str, Option(help=_NAMING, autocompletion=complete.one_of("structured", "flat"))
-    ] = "structured",
-    fmi: Annotated[
-        int,
-        Option(
-            help="Version of the FMI standard, 2 or 3.", autocompletion=complete.one_of("2", "3")
-        ),
-    ] = 2,
+    naming: Naming = "structured",
+    fmi: Fmi = 2,
     platform: Annotated[
         list[str] | None,
         Option(
@@ -40,17 +33,10 @@ def build_plant(
             autocompletion=complete.platforms,
         ),
     ] = None,
-    enumerations: Annotated[
-        str,
-        Option(
-            help="How enumerations are declared: enumeration or integer.",
-            autocompletion=complete.one_of("enumeration", "integer"),
-        ),
-    ] = "enumeration",
-    reals: Annotated[bool, Option("--reals", help="Declare every variable as a Real.")] = False,
+    enumerations: Enumerations = "enumeration",
+    reals: Reals = False,
 ) -> None:
     """Build the robot as an FMU. It is plain C and needs no Python where it runs."""
-    from apnc.cli.build import platform_names
     from apnc.system.plant_fmu import PlantBuild, plant_fmu, plant_model
     from build_fmu.writing import write_atomically
 
@@ -71,9 +57,7 @@ def build_system(
     robot: Annotated[
         str, Option(help="Robot name or TOML file.", autocompletion=complete.robots)
     ] = "lilibot",
-    naming: Annotated[
-        str, Option(help=_NAMING, autocompletion=complete.one_of("structured", "flat"))
-    ] = "structured",
+    naming: Naming = "structured",
     mi: Annotated[
         float | None,
         Option(help="Modulatory input at the start. Default: 0.08, or the robot's own."),
@@ -116,7 +100,6 @@ def build_system(
     ] = None,
 ) -> None:
     """Build a system of controller and robot: an SSP archive, and a folder for other tools."""
-    from apnc.cli.build import platform_names
     from apnc.cli.walk import experiment_of
     from apnc.system.build import build_system as build
     from apnc.system.structure import plant_setting, system_name
