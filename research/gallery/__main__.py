@@ -41,10 +41,19 @@ PAGE = DOCS / "robots" / "gallery.md"
 def read(
     output: Annotated[Path, Option(help="Folder for the robot files.")], only: Only = None
 ) -> None:
-    """Read every robot of the gallery from its model file."""
+    """Read every robot of the gallery from its model file.
+
+    Without --only, robots of repositories that are not there are left out.
+    """
     writable(output)
     for robot in robots(only or ()):
-        path, version = model_of(robot)
+        try:
+            path, version = model_of(robot)
+        except ValueError as error:
+            if only or not robot.repository:
+                raise
+            say(f"{robot.title} is left out: {error}", error=True)
+            continue
         begin = time.perf_counter()
         try:
             found = import_robot(path, robot.pose or None)

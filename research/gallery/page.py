@@ -55,7 +55,7 @@ def robot_row(robot: GalleryRobot, about: Mapping[str, Any]) -> dict[str, str]:
 
     Args:
         robot: the robot.
-        about: ``mass`` [kg], ``leg_length`` [m], ``version`` of the package; ``minutes`` of tuning
+        about: ``mass`` [kg], ``leg_length`` [m], ``version`` of the source; ``minutes`` of tuning
             and number of ``candidates``, if it was tuned.
     """
     minutes = about.get("minutes")
@@ -63,7 +63,7 @@ def robot_row(robot: GalleryRobot, about: Mapping[str, Any]) -> dict[str, str]:
         "robot": robot.title,
         "mass [kg]": f"{about['mass']:.1f}",
         "leg [m]": f"{about['leg_length']:.2f}",
-        "source": f"{robot.kind}, {robot.package} {about['version']}",
+        "source": f"{robot.kind}, {robot.source} {about['version']}",
         "licence": robot.licence,
         "tuned [min]": "no" if minutes is None else f"{minutes:.1f}",
         "candidates": f"{about.get('candidates', '-')}",
@@ -130,6 +130,7 @@ def text(
         walks=markdown([walk_row(robot, found[robot.name]) for robot in shown]),
         missed=[(robot.title, missed(found[robot.name]), robot.why) for robot in shown],
         fmus=markdown([fmu_row(robot, fmu) for robot, fmu in fmus]) if fmus else "",
+        repositories=[robot for robot in shown if robot.repository],
         searches=[line for each in known.values() for line in each.get("commands", ())],
         tuned=any(tuned), untuned=None if all(tuned) else MI_AIMED,
         apc=round(STRICT["APC"] * about["seeds"]), lift=_percent(LIFT), slip=_percent(SLIP),

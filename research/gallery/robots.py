@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,12 +20,14 @@ class GalleryRobot:
     Args:
         name: of its files.
         title: its name on the page.
-        package: that holds its model file.
-        file: the model file, below the folder of the package.
+        package: that holds its model file; empty if a repository does.
+        file: the model file, below the folder of the package or of the checkout.
         licence: of the model file.
         pose: about which it walks, see ``import_robot``; the rule's stance if empty.
         why: it misses aims, in sentences of which the last has no full stop; empty if it misses
             none.
+        repository: that holds its model file, without https; empty if a package does.
+        commit: of the repository.
     """
 
     name: str
@@ -34,6 +37,18 @@ class GalleryRobot:
     licence: str
     pose: str = ""
     why: str = ""
+    repository: str = ""
+    commit: str = ""
+
+    @property
+    def source(self) -> str:
+        """The package or the repository."""
+        return self.package or self.repository
+
+    @property
+    def root_variable(self) -> str:
+        """Environment variable that names the folder of a checkout of its repository."""
+        return f"{self.name.upper()}_ROOT"
 
     @property
     def kind(self) -> str:
@@ -48,12 +63,10 @@ def robots(names: Sequence[str] = ()) -> list[GalleryRobot]:
         ValueError: no such robot.
     """
     table = tomllib.loads(FILE.read_text("utf-8"))
-    found = {
-        entry["name"]: GalleryRobot(
-            **{**entry, "file": f"{table['folders'][entry['package']]}/{entry['file']}"}
-        )
-        for entry in table["robots"]
-    }
+    found = {}
+    for entry in table["robots"]:
+        folder = table["folders"].get(entry.setdefault("package", ""), "")
+        found[entry["name"]] = GalleryRobot(**{**entry, "file": str(Path(folder, entry["file"]))})
     for name in names:
         if name not in found:
             raise ValueError(f"robot is {name!r}; allowed: {', '.join(found)}")
@@ -61,11 +74,21 @@ def robots(names: Sequence[str] = ()) -> list[GalleryRobot]:
 
 
 def model_of(robot: GalleryRobot) -> tuple[Path, str]:
-    """Model file of a robot, and the version of its package.
+    """Model file of a robot, and the version of its package or the commit of its repository.
 
     Raises:
-        ValueError: the package is not installed, or has no such file.
+        ValueError: the package is not installed, or no variable names a checkout of the repository;
+            or there is no such file.
     """
+    if robot.repository:
+        root = os.environ.get(robot.root_variable, "")
+        path = Path(root, robot.file)
+        if not root or not path.is_file():
+            raise ValueError(
+                f"{robot.root_variable} is {root!r}; allowed: the folder of a checkout of "
+                f"{robot.repository} at commit {robot.commit}, with {robot.file}"
+            )
+        return path, robot.commit[:12]
     try:
         package = distribution(robot.package)
     except PackageNotFoundError:

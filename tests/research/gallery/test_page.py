@@ -97,6 +97,18 @@ def test_the_page_has_a_row_for_a_robot_and_a_line_for_one_that_was_refused(
     assert "commit 0123456" in text and "| 18 of 20 seeds at every MI |" in text
 
 
+def test_the_page_says_how_to_get_a_robot_of_a_repository(tmp_path: Path) -> None:
+    dog = replace(DOG, package="", repository="host/dogs", commit="0123456789abcdef")
+    about = ABOUT | {"refused": {}}
+    text = page.text([dog], about, made_up(), tmp_path)
+    assert "| Dog | 12.0 | 0.40 | URDF, host/dogs 1.2 | MIT |" in text
+    assert (
+        "git clone https://host/dogs dog && git -C dog checkout 0123456789abcdef\n"
+        "export DOG_ROOT=$PWD/dog\n" in text
+    )
+    assert "git clone" not in page.text([DOG], about, made_up(), tmp_path)
+
+
 def test_walks_are_stored_and_read_again(tmp_path: Path) -> None:
     walks = [*made_up()[:2], replace(made_up()[0], strict=False, convergence_time_s=None)]
     store.write_walks(tmp_path / "a.csv.gz", walks)

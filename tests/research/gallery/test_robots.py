@@ -21,8 +21,9 @@ def test_every_robot_says_where_it_comes_from_and_under_which_licence() -> None:
     for robot in robots():
         assert robot.licence and robot.title and robot.kind in ("URDF", "MJCF")
         assert robot.file.endswith((".urdf", ".xml")) and not Path(robot.file).is_absolute()
+        assert bool(robot.package) is not bool(robot.repository and robot.commit)
     assert [robot.name for robot in robots(["go1", "a1"])] == ["go1", "a1"]
-    with pytest.raises(ValueError, match="robot is 'rex'; allowed: solo12, "):
+    with pytest.raises(ValueError, match="robot is 'rex'; allowed: kraby, solo12, "):
         robots(["rex"])
 
 
@@ -37,6 +38,24 @@ def test_a_package_or_file_that_is_missing_is_named(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(listed, "distribution", missing)
     with pytest.raises(ValueError, match="numpy is not installed: pip install --group robots"):
         model_of(dog)
+
+
+def test_a_robot_of_a_repository_is_read_from_the_checkout_that_a_variable_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bug = GalleryRobot(
+        "bug", "Bug", "", "a/bug.urdf", "MIT", repository="host/bugs", commit="0123456789abcdef"
+    )
+    monkeypatch.delenv("BUG_ROOT", raising=False)
+    words = "of a checkout of host/bugs at commit 0123456789abcdef, with a/bug.urdf"
+    with pytest.raises(ValueError, match=f"BUG_ROOT is ''; allowed: the folder {words}"):
+        model_of(bug)
+    monkeypatch.setenv("BUG_ROOT", str(tmp_path))
+    with pytest.raises(ValueError, match=words):
+        model_of(bug)
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "bug.urdf").touch()
+    assert model_of(bug) == (tmp_path / "a" / "bug.urdf", "0123456789ab")
 
 
 def gallery(*words: str) -> subprocess.CompletedProcess[str]:
