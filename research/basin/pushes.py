@@ -203,7 +203,15 @@ def figures_of(rows: Sequence[Row]) -> list[Figure]:
     """
     axis = {"gridcolor": theme.GRID, "linecolor": theme.EDGE}
     plot = {
-        "radialaxis": axis | {"title": {"text": "push [N s]"}, "angle": 90, "rangemode": "tozero"},
+        "radialaxis": axis
+        | {
+            "ticksuffix": " N s",
+            "dtick": 2.0,
+            "angle": 67.5,
+            "tickangle": 67.5,
+            "rangemode": "tozero",
+        },
+        "domain": {"y": [0.0, 0.92]},
         "angularaxis": axis | {"rotation": 90, "direction": "counterclockwise", "ticksuffix": "°"},
         "bgcolor": theme.PAPER,
     }
