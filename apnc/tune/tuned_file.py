@@ -16,7 +16,7 @@ from apnc_plant.robot import ROBOTS, RobotDescription, load_robot
 DIGITS: Final = 5
 """Significant digits of a number that was searched."""
 
-_ANGLES: Final = ("femur_angle", "tibia_angle", "offset")
+_ANGLES: Final = ("femur_angle", "tibia_angle", "pointing", "offset")
 """Keys of a leg and its joints that a file gives in degrees."""
 
 

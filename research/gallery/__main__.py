@@ -23,6 +23,7 @@ from apnc_plant.robot.size import mean_leg_length
 from research.docs import DOCS
 from research.docs.manifest import USUAL, note
 from research.gallery import films, fmus, page, store
+from research.gallery.by_hand import text_by_hand
 from research.gallery.measure import FIRST_SEED, Walk, walks
 from research.gallery.robots import GalleryRobot, model_of, robots
 
@@ -61,7 +62,10 @@ def read(
             store.add_note(output, robot.name, {"version": version, "refused": str(error)})
             say(f"{robot.title}: {error}")
             continue
-        (output / f"{robot.name}.toml").write_text(found.toml, encoding="utf-8")
+        target = output / f"{robot.name}.toml"
+        target.write_text(found.toml, encoding="utf-8")
+        if robot.by_hand is not None:
+            target.write_text(text_by_hand(target, robot.by_hand), encoding="utf-8")
         store.add_note(output, robot.name, {"version": version})
         say(f"{robot.title}: {found.robot.mass:.2f} kg, {time.perf_counter() - begin:.1f} s")
 

@@ -10,6 +10,8 @@ from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 from typing import Final
 
+from research.gallery.by_hand import ByHand
+
 FILE: Final = Path(__file__).with_name("robots.toml")
 
 
@@ -28,6 +30,7 @@ class GalleryRobot:
             none.
         repository: that holds its model file, without https; empty if a package does.
         commit: of the repository.
+        by_hand: what is set by hand after it was read.
     """
 
     name: str
@@ -39,6 +42,7 @@ class GalleryRobot:
     why: str = ""
     repository: str = ""
     commit: str = ""
+    by_hand: ByHand | None = None
 
     @property
     def source(self) -> str:
@@ -66,7 +70,10 @@ def robots(names: Sequence[str] = ()) -> list[GalleryRobot]:
     found = {}
     for entry in table["robots"]:
         folder = table["folders"].get(entry.setdefault("package", ""), "")
-        found[entry["name"]] = GalleryRobot(**{**entry, "file": str(Path(folder, entry["file"]))})
+        entry["file"] = str(Path(folder, entry["file"]))
+        if "by_hand" in entry:
+            entry["by_hand"] = ByHand(**entry["by_hand"])
+        found[entry["name"]] = GalleryRobot(**entry)
     for name in names:
         if name not in found:
             raise ValueError(f"robot is {name!r}; allowed: {', '.join(found)}")
