@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 import time
@@ -79,7 +80,10 @@ def tune(
     workers: Workers = 2,
     only: Only = None,
 ) -> None:
-    """Tune robots by ``apnc tune``, one after the other. Those that are tuned already are kept."""
+    """Tune robots by ``apnc tune``, one after the other. Those that are tuned already are kept.
+
+    Robots with numbers that were set by hand are copied.
+    """
     writable(output)
     known = store.notes_in(robots_in)
     for robot in _there(robots_in, only):
@@ -88,6 +92,11 @@ def tune(
             say(f"{robot.title}: kept {target}")
             continue
         source = robots_in / target.name
+        if robot.by_hand is not None:
+            shutil.copyfile(source, target)
+            store.add_note(output, robot.name, known.get(robot.name, {}))
+            say(f"{robot.title}: as it was set by hand")
+            continue
         command = ["tune", str(source), "--minutes", f"{minutes:g}", "--output", str(target)]
         command += ["--seed", str(seed), "--workers", str(workers)]
         say(f"{robot.title}: apnc {' '.join(command)}")

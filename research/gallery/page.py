@@ -59,13 +59,14 @@ def robot_row(robot: GalleryRobot, about: Mapping[str, Any]) -> dict[str, str]:
             and number of ``candidates``, if it was tuned.
     """
     minutes = about.get("minutes")
+    tuned = "no" if minutes is None else f"{minutes:.1f}"
     return {
         "robot": robot.title,
         "mass [kg]": f"{about['mass']:.1f}",
         "leg [m]": f"{about['leg_length']:.2f}",
         "source": f"{robot.kind}, {robot.source} {about['version']}",
         "licence": robot.licence,
-        "tuned [min]": "no" if minutes is None else f"{minutes:.1f}",
+        "tuned [min]": "by hand" if robot.by_hand else tuned,
         "candidates": f"{about.get('candidates', '-')}",
     }
 
@@ -120,7 +121,8 @@ def text(
         for robot in shown
         if (films / f"{robot.name}.webp").is_file()
     ]
-    tuned = [each.get("minutes") is not None for each in about["robots"].values()]
+    searched = [known[robot.name] for robot in shown if robot.by_hand is None]
+    tuned = [each.get("minutes") is not None for each in searched]
     template = Environment(undefined=StrictUndefined, keep_trailing_newline=True).from_string(
         TEMPLATE.read_text("utf-8")
     )
@@ -132,6 +134,7 @@ def text(
         fmus=markdown([fmu_row(robot, fmu) for robot, fmu in fmus]) if fmus else "",
         repositories=[robot for robot in shown if robot.repository],
         searches=[line for each in known.values() for line in each.get("commands", ())],
+        by_hand=[robot.title for robot in shown if robot.by_hand],
         tuned=any(tuned), untuned=None if all(tuned) else MI_AIMED,
         apc=round(STRICT["APC"] * about["seeds"]), lift=_percent(LIFT), slip=_percent(SLIP),
         off=f"{100.0 * OFF:.0f} %",
