@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from pathlib import Path
 from typing import Any, Final
 
@@ -71,6 +71,16 @@ def robot_row(robot: GalleryRobot, about: Mapping[str, Any]) -> dict[str, str]:
     }
 
 
+def searches(about: Mapping[str, Any]) -> list[str]:
+    """Commands that find a robot again, each with the commit at which it did.
+
+    Args:
+        about: ``commands``, and the commit of each as ``at``; commands after the last have none.
+    """
+    at = [f"  # {commit}" for commit in about.get("at", ())]
+    return ["".join(pair) for pair in zip_longest(about.get("commands", ()), at, fillvalue="")]
+
+
 def fmu_row(robot: GalleryRobot, fmu: Mapping[str, Any]) -> dict[str, str]:
     """Row of an FMU, see ``fmu_of``."""
     return {
@@ -133,7 +143,7 @@ def text(
         missed=[(robot.title, missed(found[robot.name]), robot.why) for robot in shown],
         fmus=markdown([fmu_row(robot, fmu) for robot, fmu in fmus]) if fmus else "",
         repositories=[robot for robot in shown if robot.repository],
-        searches=[line for each in known.values() for line in each.get("commands", ())],
+        searches=[line for each in known.values() for line in searches(each)],
         by_hand=[robot.title for robot in shown if robot.by_hand],
         tuned=any(tuned), untuned=None if all(tuned) else MI_AIMED,
         apc=round(STRICT["APC"] * about["seeds"]), lift=_percent(LIFT), slip=_percent(SLIP),

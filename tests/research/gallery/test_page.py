@@ -18,7 +18,7 @@ ABOUT: dict[str, Any] = {
     "robots": {
         "dog": {
             "mass": 12.0, "leg_length": 0.4, "version": "1.2", "minutes": 9.6, "candidates": 640,
-            "commands": ["apnc tune dog.toml --candidates 640 --seed 1"],
+            "commands": ["apnc tune dog.toml --candidates 640 --seed 1"], "at": ["89abcde"],
             "fmu": {"kB": 178, "rate": 41.76, "weight": 117.7, "mi": 0.15, "apart": 0.0},
         }
     },
@@ -84,7 +84,7 @@ def test_the_page_has_a_row_for_a_robot_and_a_line_for_one_that_was_refused(
     assert "| Dog | 12.0 | 0.40 | URDF, kennel 1.2 | MIT | 9.6 | 640 |\n" in text
     assert "| Dog | 0.1 to 0.2 | 40/40 | 40/40 | 40/40 | 40/40 | 0.20 to 0.40 |" in text
     assert "| Dog | 178 | 41.8 | 117.7 | 0.15 | 0 |\n" in text
-    assert "\napnc tune dog.toml --candidates 640 --seed 1\n" in text
+    assert "\napnc tune dog.toml --candidates 640 --seed 1  # 89abcde\n" in text
     assert "| 0.20 to 0.40 | 5.0 % | 18.0 % |\n" in text
     assert "- **Dog:** nothing\n" in text
     assert "**1 of 1 robots reach every aim: Dog.**" in text
