@@ -127,7 +127,7 @@ class View:
     @property
     def height(self) -> float:
         """Height to be shown over the ground [mm]."""
-        return float(self.trunk[..., 1].max()) + 15.0
+        return float(max(self.trunk[..., 1].max(), self.chains[..., 1].max())) + 15.0
 
 
 class Moment:
