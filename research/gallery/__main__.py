@@ -120,7 +120,7 @@ def measure(
 ) -> None:
     """Measure robots on fresh seeds; write docs/data/gallery.csv.gz and docs/data/gallery.json.
 
-    With --only, what is stored of the other robots is kept.
+    With --only, what is stored of the other robots is kept, and so is the commit of the whole.
     """
     chosen = _there(robots_in, only)
     about: dict[str, Any] = {"robots": {}, "refused": {}}
@@ -143,18 +143,19 @@ def measure(
                 "mass": description.mass,
                 "leg_length": mean_leg_length(description),
                 "rate": description.rate,
+                "commit": commit(),
                 **known.get(robot.name, {}),
                 **store.searches_of(file),
             }
     about["refused"] |= {n: each["refused"] for n, each in known.items() if "refused" in each}
     about["refused"] = {n: why for n, why in about["refused"].items() if n not in found}
-    about |= {
-        "commit": commit(), "processor": processor(), "seeds": seeds, "first_seed": FIRST_SEED,
-    }  # fmt: skip
+    about |= {"processor": processor(), "seeds": seeds, "first_seed": FIRST_SEED}
+    if not (only and "commit" in about):
+        about["commit"] = commit()
     names = [robot.name for robot in robots()]
     store.write_walks(store.WALKS, [walk for name in names for walk in found.get(name, [])])
     store.write_json(store.ABOUT, about)
-    note({USUAL}, store.WALKS, "gallery", at=about["commit"])
+    note({USUAL}, store.WALKS, "gallery", at=commit())
     for robot in chosen:
         say(f"{robot.title}: misses {'; '.join(page.missed(found[robot.name])) or 'nothing'}")
 

@@ -25,12 +25,14 @@ class ByHand:
         servo: keys of ``[servo]``.
         controller: keys of ``[controller]``.
         mi_range: lowest and highest MI.
+        mi: MI that it walks at.
     """
 
     stance: Mapping[str, tuple[float, float, float]] = field(default_factory=dict)
     servo: Mapping[str, Any] = field(default_factory=dict)
     controller: Mapping[str, float] = field(default_factory=dict)
     mi_range: tuple[float, float] | None = None
+    mi: float | None = None
 
 
 def text_by_hand(file: Path, given: ByHand) -> str:
@@ -54,6 +56,7 @@ def by_hand(robot: RobotDescription, given: ByHand) -> RobotDescription:
         servo=replace(robot.servo, **given.servo),
         controller={**robot.controller, **given.controller},
         mi_range=given.mi_range or robot.mi_range,
+        mi=given.mi or robot.mi,
     )
 
 

@@ -144,6 +144,11 @@ def text(
         fmus=markdown([fmu_row(robot, fmu) for robot, fmu in fmus]) if fmus else "",
         repositories=[robot for robot in shown if robot.repository],
         searches=[line for each in known.values() for line in searches(each)],
+        apart=[
+            f"{robot.title} at {known[robot.name]['commit']}"
+            for robot in shown
+            if known[robot.name].get("commit", about["commit"]) != about["commit"]
+        ],
         by_hand=[robot.title for robot in shown if robot.by_hand],
         tuned=any(tuned), untuned=None if all(tuned) else MI_AIMED,
         apc=round(STRICT["APC"] * about["seeds"]), lift=_percent(LIFT), slip=_percent(SLIP),

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from research.gallery import page, store
+from research.gallery.by_hand import ByHand
 from research.gallery.measure import Walk
 from research.gallery.robots import GalleryRobot
 
@@ -97,11 +98,20 @@ def test_the_page_has_a_row_for_a_robot_and_a_line_for_one_that_was_refused(
     assert "commit 0123456" in text and "| 18 of 20 seeds at every MI |" in text
 
 
+def test_a_robot_measured_at_another_commit_says_so(tmp_path: Path) -> None:
+    about = ABOUT | {"refused": {}, "robots": {"dog": ABOUT["robots"]["dog"] | {"commit": "89ab"}}}
+    assert "commit 0123456 (Dog at 89ab), " in page.text([DOG], about, made_up(), tmp_path)
+
+
 def test_the_page_says_how_to_get_a_robot_of_a_repository(tmp_path: Path) -> None:
-    dog = replace(DOG, package="", repository="host/dogs", commit="0123456789abcdef")
+    dog = replace(
+        DOG, package="", repository="host/dogs", commit="0123456789abcdef", by_hand=ByHand()
+    )
     about = ABOUT | {"refused": {}}
     text = page.text([dog], about, made_up(), tmp_path)
-    assert "| Dog | 12.0 | 0.40 | URDF, host/dogs 1.2 | MIT |" in text
+    assert "| Dog | 12.0 | 0.40 | URDF, host/dogs 1.2 | MIT | by hand |" in text
+    assert "gains of Dog were set by hand" in text
+    assert "so that of Dog comes from a repository" in text
     assert (
         "git clone https://host/dogs dog && git -C dog checkout 0123456789abcdef\n"
         "export DOG_ROOT=$PWD/dog\n" in text
