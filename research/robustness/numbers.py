@@ -201,7 +201,7 @@ def bars(rows: Sequence[Row], *, shifts: bool) -> list[Trace]:
         known = KNOWN[number]
         tried = [off(known, level) for level in (-LEVELS, LEVELS)]
         real = [max(known.low, tried[0]), min(known.high, tried[1])]
-        for ends, said, colour, size in (
+        for reach, said, colour, size in (
             (tried, "tried", theme.GREY, 5),
             (real, "where the real number lies", theme.INK, 9),
         ):
@@ -211,7 +211,7 @@ def bars(rows: Sequence[Row], *, shifts: bool) -> list[Trace]:
                 "name": said,
                 "legendgroup": said,
                 "showlegend": place == 0 and not shifts,
-                "x": ends,
+                "x": reach,
                 "y": [name, name],
                 "line": {"color": colour, "width": size / 4.5},
                 "marker": {
