@@ -36,7 +36,7 @@ SHOWN: Final = {"apnc": "APNC", "apc": "APNC without a stored gait"} | {
 }
 """Labels of the controllers to choose from, and their names on the page."""
 
-START: Final = {"lilibot": (0.25, 0), "hexapod": (0.12, 5), "solo12": (0.22, 2), "a1": (0.21, 0)}
+START: Final = {"lilibot": (0.25, 0), "hexapod": (0.12, 8), "solo12": (0.22, 2), "a1": (0.21, 0)}
 """MI and seed with which the page opens: a robot that walks nearly straight ahead."""
 
 FILES: Final = Path(__file__).parent / "robots"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 from apnc_plant.robot import Body, Leg, RobotDescription, load_robot
 from apnc_plant.robot.model import CHAINS
@@ -36,14 +37,8 @@ def x_pose() -> RobotDescription:
 
 
 def insect() -> RobotDescription:
-    """The hexapod with a coxa, a femur and a tibia in every leg."""
-    robot = load_robot("hexapod")
-    pose = {"femur_angle": math.radians(110.0), "tibia_angle": math.radians(105.0)}
-    legs = (
-        replace(leg, chain=("coxa", "femur", "tibia"), hip_offset=(0.0, 0.03, 0.0), **pose)
-        for leg in robot.legs
-    )
-    return replace(robot, name="insect", legs=tuple(legs))
+    """A hexapod with a coxa, a femur and a tibia in every leg."""
+    return load_robot(Path(__file__).with_name("insect.toml"))
 
 
 def every_chain() -> RobotDescription:
