@@ -291,8 +291,16 @@ class Batch:
         history = lib.plant_history(lanes.latency, lanes.delay, Ts)
         shape = (kind, level, lanes.n_legs, 0 if lanes.flat else contacts, history)
         self._memory, self._kept = aligned_memory(lib.loop_size(*shape))
-        variables = self.controller.recording(signals).variables
-        lib.loop_create(self._memory, *shape, self.controller.functions, variables, Ts, lanes.step)
+        # kept here: another thread may have put an equal one of its own into the cache
+        self._recording = self.controller.recording(signals)
+        lib.loop_create(
+            self._memory,
+            *shape,
+            self.controller.functions,
+            self._recording.variables,
+            Ts,
+            lanes.step,
+        )
         self.size = int(lib.loop_lanes(self._memory))
         self._stop = ffi.new("int32_t *", 0)
         self._runs: list[Run | None] = [None] * self.size

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
 
 import apnc
-from apnc.loop.batch import Batch, Run, contacts_of, lanes_of
+from apnc.loop.batch import Batch, Run, contacts_of, fmu_of, lanes_of
+from apnc.loop.controller_library import ControllerLibrary, Recording, controller_library
 from apnc_plant.library import library
 
 EXPERIMENT = apnc.Experiment(engine="compiled", duration=2.0)
@@ -28,6 +32,22 @@ def test_the_bits_of_a_run_are_the_same_at_each(single: bool) -> None:
         record = record_at(level, single=single)
         for name, values in best.signals.items():
             np.testing.assert_array_equal(record.signals[name], values)
+
+
+def test_what_c_reads_lives_as_long_as_the_batch(monkeypatch: pytest.MonkeyPatch) -> None:
+    controller = controller_library(fmu_of(EXPERIMENT))
+    made = []
+
+    def alone(signals: frozenset[str] | None) -> Recording:
+        """As for a thread whose result the cache did not take, since another was quicker."""
+        recording = ControllerLibrary._recording(controller, signals)
+        made.append(weakref.ref(recording))
+        return recording
+
+    monkeypatch.setattr(controller, "recording", alone)
+    batch = Batch(lanes_of(EXPERIMENT), 1)
+    gc.collect()
+    assert batch.controller is controller and made[0]() is not None
 
 
 def test_the_level_decides_how_many_walk_side_by_side() -> None:
