@@ -187,10 +187,11 @@ def _say(tuned: Tuned, output: Path) -> None:
 
 
 def _say_validation(found: Validation) -> None:
+    from apnc.tune.validation import with_article
     from apnc.tune.wording import COLUMNS, others, table
 
-    seeds = len(found.cells[0].runs)
-    say(f"walks in a {found.gait} that holds, of {seeds} seeds that the search has not seen")
+    seeds, gait = len(found.cells[0].runs), with_article(found.gait)
+    say(f"walks in {gait} that holds, of {seeds} seeds that the search has not seen")
     show_table(table(found), *COLUMNS)
     for line in others(found):
         say(line)

@@ -13,7 +13,7 @@ from apnc.tune.aims import AIM_ALONE, AIM_LIFT, AIM_SLIP
 from apnc.tune.log import CHECK, Row
 from apnc.tune.measured import MAX_SLIP, MIN_LIFT, MIN_SPEED
 from apnc.tune.runs import MARGIN
-from apnc.tune.validation import Cell, Validation, percent
+from apnc.tune.validation import Cell, Validation, percent, with_article
 
 KINDS: Final = (
     ("walk", "with ANC", theme.BLUE, "circle", "solid"),
@@ -45,7 +45,7 @@ def formed(found: Validation) -> Figure:
         yaxis=theme.axis("good walks [%]", range=[-6, 106]),
         shapes=[_level(100.0 * AIM_ALONE, "y")],
     )
-    title = f"Walks in a {found.gait} that holds"
+    title = f"Walks in {with_article(found.gait)} that holds"
     return Figure("formed", title, note, traces, layout, over_time=False)
 
 

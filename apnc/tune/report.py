@@ -20,6 +20,7 @@ from apnc.report.theme import leg_colours
 from apnc.tune import figures
 from apnc.tune.log import read_rows
 from apnc.tune.tuning import Tuned
+from apnc.tune.validation import with_article
 from apnc.tune.wording import COLUMNS, changed, lines_to_paste, others, table, verdicts
 from apnc_core import __version__
 from apnc_plant.robot.size import mean_leg_length
@@ -71,7 +72,7 @@ def render(tuned: Tuned, output: Path) -> str:
         columns=COLUMNS,
         rows=table(found) if found else [],
         seeds=len(found.of("walk")[0].runs) if found else 0,
-        gait=found.gait if found else "",
+        gait=with_article(found.gait) if found else "",
         others=others(found) if found else [],
         missed=[each.words for each in found.missed()] if found else [],
         changed=changed(tuned),

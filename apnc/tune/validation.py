@@ -25,6 +25,11 @@ AIMS: Final = 9
 """Number of aims of a validation."""
 
 
+def with_article(gait: str) -> str:
+    """The name of a gait with its article, as in "a trot" and "an alternating tetrapod"."""
+    return f"{'an' if gait[:1] in 'aeiou' else 'a'} {gait}"
+
+
 @dataclass(frozen=True)
 class Cell:
     """Runs of one kind at one MI.
@@ -135,7 +140,7 @@ class Validation:
         if not bad:
             return None
         runs = len(bad[0][0].runs)
-        aim = f"{math.ceil(share * runs)} of {runs} in a {self.gait} that holds"
+        aim = f"{math.ceil(share * runs)} of {runs} in {with_article(self.gait)} that holds"
         return _missed(what, aim, bad)
 
     def _mm(self, lift: float) -> str:

@@ -9,6 +9,7 @@ import pytest
 from made_up_tuned import MI, WALK, tuned, validation
 
 from apnc.tune import Cell, Validation
+from apnc.tune.validation import with_article
 from apnc.tune.wording import COLUMNS, changed, lines_to_paste, others, table, verdicts
 
 
@@ -103,3 +104,8 @@ def test_what_changed_has_units_and_no_row_for_what_stayed() -> None:
 def test_lines_to_paste_quote_the_file() -> None:
     for _, line in lines_to_paste(Path("my robot.toml")):
         assert "'my robot.toml'" in line
+
+
+def test_a_gait_has_its_article() -> None:
+    assert with_article("trot") == "a trot"
+    assert with_article("alternating tetrapod") == "an alternating tetrapod"
