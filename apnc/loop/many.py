@@ -78,8 +78,8 @@ class _Work:
     """The runs that are left, shared by the threads.
 
     Threads suffice, since C walks without the interpreter's lock. Python needs the lock to prepare
-    a run and to take its measures: 4 ms of 11 ms for 45 s of four legs. So more than three threads
-    wait for each other.
+    a run and to take its measures, about as long as C walks it. So more than two threads wait for
+    each other.
     """
 
     def __init__(
