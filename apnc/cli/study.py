@@ -132,7 +132,7 @@ def _run(
 
 def without_verdict(name: str, results: Sequence[Result], studies: Registry) -> str:
     """A line on controllers with too few seeds for a verdict on a claim; empty if none has."""
-    from apnc.studies.study import load  # noqa: PLC0415
+    from apnc.studies.study import load  # noqa: PLC0415  # takes long to import
 
     seeds: dict[tuple[str, str], set[int]] = {}
     for result in results:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from apnc_plant.robot import Leg, RobotDescription
+from apnc_plant.robot.model import JointsInFile
 from apnc_plant.robot.size import mean_leg_length
 
 _FROM_STOPS = 0.03
@@ -87,12 +88,24 @@ def _referred(leg: Leg, hip: float, knee: float) -> Leg:
     femur = _inside(leg.femur_angle - hip, leg.femur_range)
     tibia = _inside(leg.tibia_angle + _bends(leg) * knee, leg.tibia_range)
     turned = {"hip": leg.femur_angle - femur, "knee": _bends(leg) * (tibia - leg.tibia_angle)}
-    joints = {
+    return replace(
+        leg, femur_angle=femur, tibia_angle=tibia, joints=counted_from(leg.joints, turned)
+    )
+
+
+def counted_from(joints: JointsInFile, turned: Mapping[str, float]) -> JointsInFile:
+    """Joints of a model file, whose angles count from a reference pose that has turned.
+
+    Args:
+        joints: of a leg.
+        turned: by how much each joint has, by name [rad].
+    """
+    found = {
         name: replace(own, offset=own.offset + own.sign * angle)
         for name, angle in turned.items()
-        if (own := getattr(leg.joints, name)) is not None
+        if (own := getattr(joints, name)) is not None
     }
-    return replace(leg, femur_angle=femur, tibia_angle=tibia, joints=replace(leg.joints, **joints))
+    return replace(joints, **found)
 
 
 def _inside(angle: float, stops: tuple[float, float] | None) -> float:

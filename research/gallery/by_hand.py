@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Final
 
+from apnc.tune.stance import counted_from
 from apnc.tune.tuned_file import tuned_text
 from apnc_plant.robot import Leg, RobotDescription, load_robot
 
@@ -63,18 +64,12 @@ def by_hand(robot: RobotDescription, given: ByHand) -> RobotDescription:
 def _stood(leg: Leg, degrees: tuple[float, float, float]) -> Leg:
     """The leg in another reference pose; the joints of its model file count from it."""
     pointing, femur, tibia = map(math.radians, degrees)
-    side = -1.0 if leg.mount[1] < 0.0 else 1.0
     turned = {
-        "abduction": side * (leg.tibia_angle - tibia),
+        "abduction": leg.side * (leg.tibia_angle - tibia),
         "hip": pointing - leg.pointing,
         "knee": femur - leg.femur_angle,
     }
-    joints = {}
-    for name, angle in turned.items():
-        own: Any = getattr(leg.joints, name)
-        if own is not None:
-            joints[name] = replace(own, offset=own.offset + own.sign * angle)
     return replace(
         leg, pointing=pointing, femur_angle=femur, tibia_angle=tibia,
-        joints=replace(leg.joints, **joints),
+        joints=counted_from(leg.joints, turned),
     )  # fmt: skip

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from research.docs import DOCS
 from research.gallery import page, store
 from research.gallery.by_hand import ByHand
 from research.gallery.measure import Walk
@@ -165,3 +167,11 @@ def test_the_page_in_the_documentation_is_that_of_the_stored_walks() -> None:
         robots(), store.read_json(store.ABOUT), store.read_walks(store.WALKS), PICTURES
     )
     assert PAGE.read_text("utf-8") == text
+
+
+def test_the_front_pages_say_how_many_robots_reach_every_aim() -> None:
+    text = (DOCS / "robots" / "gallery.md").read_text("utf-8")
+    found = re.search(r"\*\*(\d+ of \d+) robots reach every aim", text)
+    assert found
+    for front in (DOCS.parent / "README.md", DOCS / "index.md"):
+        assert re.search(rf"- {found[1]} \[?robots of other people", front.read_text("utf-8"))
